@@ -212,6 +212,7 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   problem.complete();
   result.data = problem.data();
   setFrictionData(scene, result.contacts, problem.problem(), result.data);
+  problem.setCompliance(complianceOf(scene, result.contacts, problem.problem()));
   result.problem = problem.take();
   return result;
 }

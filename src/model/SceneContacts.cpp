@@ -306,6 +306,34 @@ contact::NodeUnknowns nodeUnknowns(const std::vector<BodyLayout>& bodies,
   return unknowns;
 }
 
+RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<ContactLayout>& contacts,
+                               const decomposition::DecomposedProblem& problem) {
+  if (std::none_of(scene.contacts.begin(), scene.contacts.end(), [](const scene::SurfaceContact& contact) {
+        return contact.stiffness > 0 || contact.stickSlope > 0;
+      }))
+    return Teuchos::null;
+  const RCP<Vector> compliance = rcp(new Vector(problem.multiplierMap)); // stiffness first
+  const auto values = compliance->getDataNonConst();
+  const GlobalOrdinal numTangents = problem.components - 1;
+  for (const ContactLayout& contact : contacts) {
+    const scene::SurfaceContact& terms = scene.contacts[contact.number];
+    for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
+      const double area = contact.portion(row) * contact.areas[row];
+      const GlobalOrdinal offset = row;
+      const auto add = [&](GlobalOrdinal number, double stiffness) {
+        if (const LocalOrdinal own = problem.multiplierMap->getLocalElement(number); own >= 0)
+          values[own] += stiffness * area;
+      };
+      add(contact.firstRow + offset, terms.stiffness);
+      for (GlobalOrdinal k = 0; contact.firstFriction >= 0 && k < numTangents; ++k)
+        add(problem.numInequalities + numTangents * (contact.firstFriction + offset) + k, terms.stickSlope);
+    }
+  }
+  for (LocalOrdinal i = 0; i < values.size(); ++i)
+    values[i] = values[i] > 0 ? 1 / values[i] : 0;
+  return compliance;
+}
+
 void setFrictionData(const scene::Scene& scene, const std::vector<ContactLayout>& contacts,
                      const decomposition::DecomposedProblem& problem, decomposition::ProblemData& data) {
   std::vector<double> bounds, coefficients;

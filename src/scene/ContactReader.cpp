@@ -137,10 +137,20 @@ void readCoupling(const ListReader& entry, SurfaceContact& pair) {
   pair.multipliers = side == "first" ? Side::first : side == "second" ? Side::second : Side::automatic;
 }
 
-/// What hinders the surfaces from slipping.
+/// What hinders the surfaces from slipping, and by what they give way.
 void readFriction(const ListReader& entry, const Body& body, SurfaceContact& pair) {
   pair.friction = entry.real("Friction");
   pair.frictionBound = entry.real("Friction Bound");
+  pair.stiffness = entry.real("Stiffness");
+  pair.stickSlope = entry.real("Stick Slope");
+  for (const char* const name : {"Stiffness", "Stick Slope"}) {
+    if (entry.real(name) > 0 && body.physics == fem::Physics::membrane)
+      entry.refuseValue(name, "membranes do not give way where they touch");
+    if (entry.real(name) > 0 && pair.kind == SurfaceContact::Kind::tied)
+      entry.refuseValue(name, "a tied joint does not give way; remove it, or make the pair a contact");
+  }
+  if (pair.stickSlope > 0 && !pair.hasFriction())
+    entry.refuseValue("Stick Slope", "there is no friction that would make the surfaces stick");
   if (!pair.hasFriction())
     return;
   const char* const given = pair.friction > 0 ? "Friction" : "Friction Bound";

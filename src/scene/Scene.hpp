@@ -44,6 +44,8 @@ struct SurfaceContact {
   Side multipliers = Side::automatic;
   double friction = 0; ///< Coulomb's coefficient μ: tangential tractions are at most μ times the pressure
   double frictionBound = 0; ///< Tresca's: they are at most this, force per area
+  double stiffness = 0;     ///< pressure over overclosure; 0: surfaces do not give way
+  double stickSlope = 0;    ///< tangential traction over what sticking surfaces shift; 0: they do not
 
   [[nodiscard]] bool hasFriction() const { return friction > 0 || frictionBound > 0; }
 };

@@ -244,6 +244,15 @@ void describePair(ParameterList& contact) {
       "Elastic bodies, instead of Friction: tangential tractions are at most this (force per area, Tresca's "
       "law), whatever the pressure is.",
       0.0);
+  addReal(pair, "Stiffness", 0.0,
+          "Elastic bodies: pressure over overclosure, force per volume, of surfaces that give way; 0: they "
+          "do not.",
+          0.0);
+  addReal(pair, "Stick Slope", 0.0,
+          "With friction: tangential traction over the shift of surfaces that stick, force per volume; 0: "
+          "they do not "
+          "shift.",
+          0.0);
   addReal(pair, "Distance", 0.0,
           "Nodes that are farther than this from the other side cannot meet it and get no inequality; 0: no "
           "limit. Not of membranes on rectangles.",

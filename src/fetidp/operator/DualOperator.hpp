@@ -17,10 +17,12 @@ namespace epafi::fetidp {
 /// column, two neighbour exchanges, one message of the coarse problem's size times the columns.
 class DualOperator final : public SymmetricOperator {
 public:
-  /// Shares the inverse. Collective.
-  explicit DualOperator(std::shared_ptr<const GeneralizedInverse> inverse)
+  /// Shares the inverse. \param compliance  C, or null. Collective.
+  explicit DualOperator(std::shared_ptr<const GeneralizedInverse> inverse,
+                        RCP<const Vector> compliance = Teuchos::null)
       : SymmetricOperator(inverse->multiplierPlan()->getSourceMap()), inverse_(std::move(inverse)),
-        input_(inverse_->multiplierPlan()), output_(inverse_->multiplierPlan()) {}
+        compliance_(std::move(compliance)), input_(inverse_->multiplierPlan()),
+        output_(inverse_->multiplierPlan()) {}
 
   /// K̄⁺, of which F is made.
   [[nodiscard]] const GeneralizedInverse& inverse() const { return *inverse_; }
@@ -31,9 +33,12 @@ private:
     inverse_->applyDual(lambda, output_.values(x.getNumVectors()), static_cast<int>(x.getNumVectors()),
                         work_);
     output_.sumToOwners(y);
+    if (!compliance_.is_null())
+      y.elementWiseMultiply(1.0, *compliance_, x, 1.0);
   }
 
   std::shared_ptr<const GeneralizedInverse> inverse_;
+  RCP<const Vector> compliance_;
   mutable MultiplierExchange input_, output_;
   mutable GeneralizedInverse::Workspace work_;
 };

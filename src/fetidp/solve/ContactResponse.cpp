@@ -64,7 +64,7 @@ private:
   qp::FaceEquality equality_;
 };
 
-/// B̄K̄⁺(f̄ − B̄ᵀλ) − c, and K̄⁺(…).
+/// B̄K̄⁺(f̄ − B̄ᵀλ) − Cλ − c, and K̄⁺(…).
 struct Jumps {
   Jumps(const DualProblem& dual, const DataChange& change, const Vector* lambda)
       : values(rcp(new Vector(dual.problem().multiplierMap))) {
@@ -75,6 +75,8 @@ struct Jumps {
     dual.inverse().apply(forces, u);
     dual.inverse().constraint(u, exchange.values());
     exchange.sumToOwners(*values);
+    if (lambda != nullptr && !dual.problem().compliance.is_null())
+      values->elementWiseMultiply(-1.0, *dual.problem().compliance, *lambda, 1.0);
     if (!change.gap.is_null())
       values->update(-1.0, *change.gap, 1.0);
   }

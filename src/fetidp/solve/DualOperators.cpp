@@ -73,7 +73,7 @@ DualOperators makeDualOperators(const DecomposedProblem& problem, const decompos
   if (plan.algorithm == Algorithm::direct)
     return operators;
   collectively(*problem.comm, [&] { inverse->prepareDual(parameters.dualOperator); });
-  operators.f = rcp(new DualOperator(inverse));
+  operators.f = rcp(new DualOperator(inverse, problem.compliance));
   if (const auto jumps = findOverratedColumns(problem, *inverse, RowKind::gluing, plan.gluing,
                                               parameters.preconditioner.scaling);
       jumps.number > 0)

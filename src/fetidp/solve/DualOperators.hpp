@@ -18,7 +18,7 @@ namespace epafi::fetidp {
 
 /// Where there is nothing to iterate, all are null.
 struct DualOperators {
-  RCP<const DualOperator> f;                        ///< F
+  RCP<const DualOperator> f;                        ///< F, with C where contacts give way
   RCP<const qp::DeflatedOperator> deflated;         ///< F_U; null where no jump is deflated
   RCP<const NaturalCoarseSpace> coarseSpace;        ///< G, P, Q; null without floating bodies
   RCP<const Operator> hessian;                      ///< F or F_U, or either of them between projectors P

@@ -24,24 +24,32 @@ namespace {
 using decomposition::DecomposedProblem;
 using decomposition::ProblemData;
 
-/// c − B̄u on the owners' multipliers.
-void slackOf(const ProblemData& data, const GeneralizedInverse& inverse, const SubdomainVectors& u,
-             Vector& slack) {
-  MultiplierExchange exchange(inverse.multiplierPlan());
-  inverse.constraint(u, exchange.values());
+/// c − B̄u + Cλ on the owners' multipliers.
+void slackOf(const DualProblem& dual, const ProblemData& data, const SubdomainVectors& u,
+             const Vector& lambda, Vector& slack) {
+  MultiplierExchange exchange(dual.inverse().multiplierPlan());
+  dual.inverse().constraint(u, exchange.values());
   exchange.sumToOwners(slack);
   slack.update(1.0, data.gap(), -1.0);
+  if (const RCP<const Vector>& compliance = dual.problem().compliance; !compliance.is_null())
+    slack.elementWiseMultiply(1.0, *compliance, lambda, 1.0);
 }
 
-/// ½uᵀKu − fᵀu over all subdomains. Of u before its rigid part Rα, which has no energy but −ẽᵀα: in the sum
+/// ½uᵀKu − fᵀu over all subdomains, and ½λᵀCλ. Of u before its rigid part Rα, which has no energy but −ẽᵀα: in the sum
 /// it would only bring round-off, the more the stiffer the body.
-double energyOf(const DecomposedProblem& problem, const ProblemData& data, const SubdomainVectors& u) {
+double energyOf(const DecomposedProblem& problem, const ProblemData& data, const SubdomainVectors& u,
+                const Vector& lambda) {
   AccurateSum energy;
   for (std::size_t s = 0; s < u.size(); ++s) {
     const decomposition::SubdomainData& own = data.subdomains()[s];
     const auto values = u[s].col(0);
     energy.add(0.5 * values.dot(*problem.subdomains[s].stiffness * values) - own.rightHandSide().dot(values) +
                own.energyOffset());
+  }
+  if (!problem.compliance.is_null()) {
+    const auto compliance = problem.compliance->getData(), force = lambda.getData();
+    for (LocalOrdinal i = 0; i < force.size(); ++i)
+      energy.add(0.5 * compliance[i] * force[i] * force[i]);
   }
   sumOverRanks(*problem.comm, {&energy, 1});
   return energy.value();
@@ -142,7 +150,7 @@ struct Settling {
 
 /// One step: u, λ and the slack by what follows where the held rows move by what they lack, so that Bu = c
 /// there, and the forces of the others become loads that go away. K(u̇) = −B̄ᵀ(λ̇), so that the energy grows
-/// by −½(λ + λ_new)ᵀB̄u̇. Collective.
+/// by −½(λ + λ_new)ᵀ(B̄u̇ − Cλ̇). Collective.
 void settleRows(const DualProblem& dual, const ProblemData& data, const Vector& held, SubdomainVectors& u,
                 ContactSolution& solution, qp::SolveReport& report) {
   constexpr double tolerance = 1e-3; // there are more steps
@@ -165,9 +173,9 @@ void settleRows(const DualProblem& dual, const ProblemData& data, const Vector& 
   lambda.update(1.0, *response.multiplier, 1.0);
   for (std::size_t s = 0; s < u.size(); ++s)
     u[s] += response.unknowns[s];
-  slackOf(data, dual.inverse(), u, slack);
+  slackOf(dual, data, u, lambda, slack);
   Vector moved(slackBefore, Teuchos::Copy), force(lambdaBefore, Teuchos::Copy);
-  moved.update(-1.0, slack, 1.0); // B̄u̇
+  moved.update(-1.0, slack, 1.0); // B̄u̇ − Cλ̇
   force.update(1.0, lambda, 1.0);
   solution.energy -= 0.5 * accurateDot(force, moved);
 }
@@ -175,7 +183,7 @@ void settleRows(const DualProblem& dual, const ProblemData& data, const Vector& 
 /// Whether the energy that was followed is that of u: else forces that were large on the way have left u and
 /// λ out of balance. Collective.
 bool isBalanced(const DecomposedProblem& problem, const ProblemData& data, const SubdomainVectors& u,
-                double energy) {
+                const Vector& lambda, double energy) {
   constexpr double share = 1e-7, roundOff = 1e-12;
   AccurateSum sums[2]; // uᵀKu, |u|ᵀ|K||u|
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -185,7 +193,7 @@ bool isBalanced(const DecomposedProblem& problem, const ProblemData& data, const
     sums[1].add(values.cwiseAbs().dot(stiffness.cwiseAbs() * values.cwiseAbs()));
   }
   sumOverRanks(*problem.comm, sums);
-  return std::abs(energyOf(problem, data, u) - energy) <=
+  return std::abs(energyOf(problem, data, u, lambda) - energy) <=
          share * (std::abs(energy) + std::abs(sums[0].value())) + roundOff * sums[1].value();
 }
 
@@ -219,7 +227,7 @@ bool settle(const DualProblem& dual, const ProblemData& data, const Settling& se
       open = std::numeric_limits<double>::infinity();
     } else {
       forces->project(*solution.multiplier); // the last digits
-      return isBalanced(dual.problem(), data, u, solution.energy);
+      return isBalanced(dual.problem(), data, u, *solution.multiplier, solution.energy);
     }
   }
   return false;
@@ -264,8 +272,8 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const ProblemD
   solution.active = rcp(new Vector(problem.multiplierMap));
 
   SubdomainVectors u = unknownsOf(data, inverse, *found.lambda);
-  slackOf(data, inverse, u, *solution.slack);
-  solution.energy = energyOf(problem, data, u);
+  slackOf(dual, data, u, *found.lambda, *solution.slack);
+  solution.energy = energyOf(problem, data, u, *found.lambda);
   if (problem.kernelDimension > 0) {
     const RestCheck check = restCheck(dual, data, found);
     const Eigen::VectorXd alpha =
@@ -277,7 +285,7 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const ProblemD
       if (subdomain.kernel.cols() > 0)
         u[s] += subdomain.kernel * alpha.segment(offset, subdomain.kernel.cols());
     }
-    slackOf(data, inverse, u, *solution.slack);
+    slackOf(dual, data, u, *found.lambda, *solution.slack);
   }
   const RCP<const Vector> sizes = sizesOfRows(problem, *inverse.multiplierPlan());
   if (settling != nullptr && !settle(dual, data, *settling, *sizes, u, solution))
