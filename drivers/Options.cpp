@@ -36,6 +36,7 @@ Options parseOptions(int argc, const char* const* argv) {
       .value("--output", options.output)
       .value("--report", options.report)
       .value("--frd", options.frd)
+      .value("--export", options.exported)
       .value("--restart", options.restart)
       .value("--checkpoint-interval",
              [&](const std::string& text) { options.checkpointInterval = secondsOf(text); })
@@ -56,7 +57,10 @@ Options parseOptions(int argc, const char* const* argv) {
 
 std::string usage() {
   return "Usage: epafi SCENE.xml [OPTION]...\n"
-         "Solves the contact problem of an XML scene by FETI-DP; start it with mpirun for several ranks.\n\n"
+         "       epafi DECK.inp [OPTION]...\n"
+         "Solves the contact problem of an XML scene, or of an input deck as CalculiX and Abaqus have them, "
+         "by\n"
+         "FETI-DP; start it with mpirun for several ranks.\n\n"
          "  --set \"List/Sub list/Parameter=value\"  change one parameter of the scene (repeat for more)\n"
          "  --accuracy SHARE                       refine until the estimated error is at most 1% say\n"
          "  --output DIR                           write DIR/<scene>.h5, .xdmf, history.csv, report.xml and\n"
@@ -65,6 +69,9 @@ std::string usage() {
          "  --frd FILE.frd                         write displacements, stresses and contact of elastic "
          "bodies as\n"
          "                                         CalculiX does, for FreeCAD, PrePoMax and cgx\n"
+         "  --export SCENE.xml                     write a deck as a scene with its mesh beside it, "
+         "SCENE.msh, and\n"
+         "                                         solve nothing\n"
          "  --restart CHECKPOINT                   go on from a checkpoint of this scene, on any number of "
          "ranks\n"
          "  --checkpoint-interval SECONDS          time between checkpoints (600); 0: only at the end\n"

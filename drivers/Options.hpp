@@ -8,10 +8,11 @@
 namespace epafi::drivers {
 
 struct Options {
-  std::string scene;                  ///< XML file
+  std::string scene;                  ///< XML file or input deck
   std::vector<std::string> overrides; ///< --set
   std::string output;                 ///< --output DIR; empty: no files
   std::string report;                 ///< --report FILE; empty: only DIR/report.xml
+  std::string exported;               ///< --export FILE; empty: none, the scene is solved
   std::string frd;                    ///< --frd FILE; empty: none
   std::string restart;                ///< --restart FILE, a checkpoint; empty: from the beginning
   double checkpointInterval = 600;    ///< --checkpoint-interval, seconds; 0: only at the end

@@ -1,5 +1,7 @@
 #include "RunFiles.hpp"
 
+#include "DeckFiles.hpp"
+
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/AtomicFile.hpp"
@@ -150,12 +152,12 @@ void RunFiles::prepareFields(simulation::SceneRun& run, output::FileSet& files) 
 void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
   attempt(options_.frd, [&] {
     const std::vector<simulation::StepResult>& steps = run.result.steps;
-    if (steps.empty()) {
-      frd_ = output::FrdFile();
+    if (steps.size() < 2) // of other meshes before
+      frd_ = output::FrdFile(comm_->getRank() == 0 ? numberingOf(options_.scene) : output::FrdNumbering());
+    if (steps.empty())
       frd_.add(run.solved(), run.evaluation);
-    } else {
+    else
       frd_.add(run.solved(), run.evaluation, {steps.back().name, static_cast<int>(steps.size())});
-    }
     files.write(options_.frd, [&] { return frd_.text(); });
     return line("frd", options_.frd);
   });

@@ -1,5 +1,6 @@
 /// `epafi SCENE.xml`: one contact problem from its XML scene to fields, report and exit code.
 
+#include "DeckFiles.hpp"
 #include "JointEnd.hpp"
 #include "Options.hpp"
 #include "RunFiles.hpp"
@@ -139,7 +140,7 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   requireTargets(options, *comm);
   if (speaks)
     std::cout << "Epafi " << version() << ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
-              << std::flush;
+              << notesOf(options.scene) << std::flush;
 
   RunWatch watch(options, comm);
   RunFiles files(options, watch, comm, start);
@@ -158,6 +159,10 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
 
 int run(int argc, char** argv, const RCP<const Comm>& comm) {
   const Options options = parseOptions(argc, argv);
+  if (!options.exported.empty() && !options.help) {
+    exportDeck(options.scene, options.exported, comm);
+    return solved;
+  }
   if (!options.help && !options.version && !options.printParameters)
     return solve(options, comm);
   return comm->getRank() > 0 || print(information(options)) ? solved : notConverged;

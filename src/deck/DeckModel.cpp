@@ -91,6 +91,14 @@ ModelMaker::ModelMaker(const Deck& deck, std::string mesh)
     for (const GlobalOrdinal node : deck.transforms[t].nodes)
       transformOf_[node] = t;
   model_.scene.set("Title", deck.title.empty() ? deck.file : deck.title);
+  for (const Step& step : deck.steps)
+    if (step.isNonlinear) {
+      model_.notes.push_back(text(step.place) +
+                             ": NLGEOM: displacements are small here: the linear problem is solved");
+      break;
+    }
+  for (const Ignored& ignored : deck.ignored)
+    model_.notes.push_back(text(ignored.place) + ": " + ignored.keyword + " is passed over");
 }
 
 ParameterList& ModelMaker::listOf(int body) {
@@ -119,6 +127,8 @@ void ModelMaker::addBodies() {
     list.set("Mesh", mesh_);
     list.set("Group", body.name);
     model_.groups.elements[body.name] = body.elements;
+    model_.nodeNumbers.push_back(body.nodes);
+    model_.elementNumbers.push_back(body.elements);
     list.set("Inner Nodes", "none");
     if (body.type->isReduced)
       list.set("Integration", "reduced");

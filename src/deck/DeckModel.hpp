@@ -14,6 +14,8 @@ namespace epafi::deck {
 struct DeckModel {
   Teuchos::ParameterList scene{"Epafi"};
   MeshGroups groups; ///< of the mesh, see mshText()
+  /// Of each body the deck's numbers, in the order of its mesh.
+  std::vector<std::vector<GlobalOrdinal>> nodeNumbers, elementNumbers;
   /// What differs from what the deck asks for, a sentence each.
   std::vector<std::string> notes;
 };

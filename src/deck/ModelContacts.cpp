@@ -71,10 +71,6 @@ void ModelMaker::addContacts() {
   };
   for (const ContactPair& pair : deck_.contacts) {
     const Interaction& interaction = deck_.interactions.at(pair.interaction);
-    if (interaction.law == Interaction::Law::linear || interaction.stiffness > 0)
-      throw InputError(text(interaction.place) +
-                       ": *SURFACE BEHAVIOR: contact of a stiffness of its own is not "
-                       "solved here; PRESSURE-OVERCLOSURE=HARD needs none");
     if (pair.adjust || !pair.adjustSet.empty())
       model_.notes.push_back(text(pair.place) + ": ADJUST: nodes stay where they are, and so do the gaps");
     add(pair.dependent + " - " + pair.independent, pair.dependent, pair.independent, pair.place,
@@ -83,6 +79,10 @@ void ModelMaker::addContacts() {
             list.set("Kind", "tied");
           else if (interaction.friction > 0)
             list.set("Friction", interaction.friction);
+          if (interaction.law == Interaction::Law::linear)
+            list.set("Stiffness", interaction.stiffness);
+          if (interaction.friction > 0 && interaction.stickSlope.value_or(0) > 0)
+            list.set("Stick Slope", *interaction.stickSlope);
         });
   }
   for (const Tie& tie : deck_.ties)
