@@ -65,7 +65,7 @@ std::string Card::value(std::string_view parameter) const {
 }
 
 std::string Card::required(std::string_view parameter) const {
-  const std::string result = value(parameter);
+  std::string result = value(parameter);
   if (result.empty())
     refuse("it needs " + std::string(parameter) + "=");
   return result;

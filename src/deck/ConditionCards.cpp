@@ -15,7 +15,7 @@ struct Timing {
 };
 
 Timing timingOf(Reading& reading, const Card& card) {
-  const Timing timing{card.value("AMPLITUDE"), card.number("TIMEDELAY").value_or(0)};
+  Timing timing{card.value("AMPLITUDE"), card.number("TIMEDELAY").value_or(0)};
   reading.refer(card, card.place, Reading::Reference::To::amplitude, timing.amplitude);
   if (timing.delay < 0)
     card.refuse("TIME DELAY should not be negative");

@@ -128,14 +128,14 @@ std::vector<GlobalOrdinal> Reading::elementsIn(const Fields& fields, int field) 
 }
 
 std::string Reading::nodeSet(const Card& card, std::string_view parameter) const {
-  const std::string name = card.required(parameter);
+  std::string name = card.required(parameter);
   if (!deck.nodeSets.contains(name))
     card.refuse(notThere("set of nodes", name, keysOf(deck.nodeSets)));
   return name;
 }
 
 std::string Reading::elementSet(const Card& card, std::string_view parameter) const {
-  const std::string name = card.required(parameter);
+  std::string name = card.required(parameter);
   if (!deck.elementSets.contains(name))
     card.refuse(notThere("set of elements", name, keysOf(deck.elementSets)));
   return name;

@@ -23,7 +23,7 @@ protected:
     return path.string();
   }
   std::string writePacked(const std::string& name, const std::string& text) {
-    const std::string path = (directory_.path() / name).string();
+    std::string path = (directory_.path() / name).string();
     const gzFile file = gzopen(path.c_str(), "wb");
     EXPECT_EQ(gzwrite(file, text.data(), static_cast<unsigned>(text.size())), static_cast<int>(text.size()));
     EXPECT_EQ(gzclose(file), Z_OK);
