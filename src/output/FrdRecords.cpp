@@ -31,10 +31,12 @@ FrdCell frdCellOf(mesh::CellType type) {
     return {1, 8};
   case triangle6:
     return {8, 6};
+  case quadrilateral8:
   case quadrilateral9:
     return {10, 8};
   case tetrahedron10:
     return {6, 10};
+  case hexahedron20:
   case hexahedron27:
     return {4, 20};
   case line:

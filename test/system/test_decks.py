@@ -1,0 +1,123 @@
+#!/usr/bin/python3
+"""test_decks.py EPAFI SOURCE_DIR MPIRUN ARGUMENTS...: the decks of CalculiX' own suite (Debian's package calculix-ccx-test)
+beside what CalculiX says of them: the suite's own references, or, without NLGEOM, a run of ccx."""
+
+import csv
+import gzip
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+EPAFI, SOURCE, LAUNCH = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+SUITE = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test")
+NUMBER = re.compile(r"[-+]?\d+\.\d*E[-+]\d+")
+
+
+def table():
+    with open(SOURCE / "test/system/decks.csv", encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def deck(name):
+    with gzip.open(SUITE / f"{name}.inp.gz", "rt", encoding="latin-1") as file:
+        return file.read()
+
+
+def displacements_in_dat(text):
+    """{node: u} of the last time that is printed, as far as blocks have it."""
+    fields, time = {}, None
+    for block in re.split(r"\n(?= displacements)", "\n" + text):
+        head = re.match(r" displacements \(vx,vy,vz\) for set \S+ and time +(\S+)", block)
+        if not head:
+            continue
+        time = float(head.group(1))
+        for line in block.splitlines()[1:]:
+            words = line.split()
+            if len(words) == 4 and words[0].isdigit():
+                fields.setdefault(time, {})[int(words[0])] = [float(word) for word in words[1:]]
+            elif words:
+                break
+    return fields[max(fields)]
+
+
+def displacements_in_frd(text):
+    """{node: u} of the last results."""
+    block = text[text.rindex(" -4  DISP"):]
+    return {int(line[3:13]): [float(line[13 + 12 * c:25 + 12 * c]) for c in range(3)]
+            for line in block[:block.index("\n -3")].splitlines() if line.startswith(" -1")}
+
+
+def reference(name, kind, folder):
+    if kind == "ref":
+        return displacements_in_dat((SUITE / f"{name}.dat.ref").read_text(encoding="latin-1"))
+    text = deck(name)
+    if kind == "linear":
+        text = re.sub(r",\s*NLGEOM(=YES)?", "", text, flags=re.I)
+    text = re.sub(r"\*NODE FILE.*", "*NODE FILE", text, flags=re.I)
+    (folder / f"{name}.inp").write_text(text, encoding="latin-1")
+    subprocess.run(["ccx", name], cwd=folder, capture_output=True, timeout=120, check=True)
+    return displacements_in_frd((folder / f"{name}.frd").read_text(encoding="latin-1"))
+
+
+def length(vector):
+    return math.sqrt(sum(component ** 2 for component in vector))
+
+
+class DecksTest(unittest.TestCase):
+    def setUp(self):
+        if not SUITE.is_dir():
+            self.skipTest("the package calculix-ccx-test is not installed")
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def solve(self, name, ranks=1):
+        (self.folder / f"{name}.inp").write_text(deck(name), encoding="latin-1")
+        command = [EPAFI, self.folder / f"{name}.inp", "--quiet", "--frd", self.folder / f"epafi_{name}.frd"]
+        if ranks > 1:
+            command = [*LAUNCH, str(ranks), *command]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
+        self.assertEqual(done.returncode, 0, f"{name}: {done.stderr}")
+        return displacements_in_frd((self.folder / f"epafi_{name}.frd").read_text(encoding="utf-8"))
+
+    def compare(self, name, found, expected, tolerance):
+        largest = max(length(u) for u in expected.values())
+        self.assertGreater(largest, 0)
+        common = found.keys() & expected.keys()
+        self.assertGreaterEqual(len(common), 0.9 * len(expected), name)
+        worst = max(common, key=lambda node: length([a - b for a, b in zip(found[node], expected[node])]))
+        apart = length([a - b for a, b in zip(found[worst], expected[worst])]) / largest
+        self.assertLessEqual(apart, tolerance, f"{name}: node {worst} is at {found[worst]}, not {expected[worst]}")
+
+    def test_displacements_are_those_of_calculix(self):
+        compared = 0
+        for row in table():
+            with self.subTest(row["deck"]):
+                if row["reference"] != "ref" and shutil.which("ccx") is None:
+                    continue
+                self.compare(row["deck"], self.solve(row["deck"]),
+                             reference(row["deck"], row["reference"], self.folder), float(row["tolerance"]))
+                compared += 1
+        self.assertGreaterEqual(compared, 20)
+
+    def test_two_ranks_find_the_same(self):
+        for row in table()[::6]:
+            with self.subTest(row["deck"]):
+                self.compare(row["deck"], self.solve(row["deck"], 2), self.solve(row["deck"]), 2e-5)
+
+    def test_an_exported_deck_is_the_same_scene(self):
+        for name in ("beamp", "disk2"):
+            (self.folder / f"{name}.inp").write_text(deck(name), encoding="latin-1")
+            subprocess.run([EPAFI, self.folder / f"{name}.inp", "--export", self.folder / f"{name}.xml"], check=True,
+                           timeout=60)
+            frd = self.folder / "exported.frd"
+            subprocess.run([EPAFI, self.folder / f"{name}.xml", "--quiet", "--frd", frd], check=True, timeout=60)
+            by_place = sorted(displacements_in_frd(frd.read_text(encoding="utf-8")).values())
+            self.assertEqual(by_place, sorted(self.solve(name).values()))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
