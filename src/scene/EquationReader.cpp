@@ -46,7 +46,8 @@ void readEquations(const ListReader& list, Scene& scene) {
     Equation equation{name, {}, entry.real("Value")};
     std::istringstream terms(entry.word("Terms"));
     for (std::string text; std::getline(terms, text, ',');)
-      equation.terms.push_back(termOf(entry, trimmed(text), scene));
+      if (!trimmed(text).empty())
+        equation.terms.push_back(termOf(entry, trimmed(text), scene));
     if (equation.terms.empty())
       entry.refuseList("has no terms; give at least one");
     scene.equations.push_back(std::move(equation));
