@@ -35,6 +35,7 @@ void requireElasticBodies(const scene::Scene& scene, const std::string& asker);
 /// of which the results know. A body's elements have its number as material, and its name stands in the head.
 class FrdFile {
 public:
+  /// Empty. \param numbering  of all that is added
   explicit FrdFile(FrdNumbering numbering = {}) : numbering_(std::move(numbering)) {}
 
   /// Adds results, and, before the first ones, the mesh.
