@@ -30,6 +30,11 @@ struct ContactTerms {
   /// Of each facet of the first surface to which of the united contacts it belongs; empty: there is one.
   std::vector<std::size_t> parts{};
   double sense = 1; ///< of a deflection: −1 if it is the second body that must stay below
+  /// Gaps of geometry up to this, overlaps too, count as none: surfaces that are meant to touch there.
+  double adjust = -std::numeric_limits<double>::infinity();
+
+  /// c of a row whose places are so far apart.
+  [[nodiscard]] double gapOf(double apart) const { return (apart <= adjust ? 0 : apart) + gap; }
 };
 
 /// What is wrong with a contact, by its name.

@@ -216,10 +216,8 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   RowAreas areas(terms, nodes.nodes.size());
   for (const MortarRow& row :
        maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, false, areas)) {
-    double gap = terms.gap;
-    if (terms.components > 1)
-      gap += nodes.normals[row.place].dot(maker.apart(row));
-    enter(row, nodes, areas, directionAt(row.place), terms.components, gap, layout);
+    const double apart = terms.components > 1 ? nodes.normals[row.place].dot(maker.apart(row)) : 0;
+    enter(row, nodes, areas, directionAt(row.place), terms.components, terms.gapOf(apart), layout);
     layout.numBent += terms.components > 1 && maker.isBent(row.place) ? 1 : 0;
   }
   requireMortarRows(terms, layout);

@@ -130,8 +130,11 @@ void ModelMaker::addBodies() {
     model_.nodeNumbers.push_back(body.nodes);
     model_.elementNumbers.push_back(body.elements);
     list.set("Inner Nodes", "none");
-    if (body.type->isReduced)
+    if (body.type->isReduced && body.elements.size() > 1)
       list.set("Integration", "reduced");
+    else if (body.type->isReduced)
+      model_.notes.push_back(text(body.place) + ": element " + std::to_string(body.elements.front()) +
+                             " stands alone and is integrated fully: reduced, it would be loose in itself");
     std::map<int, Numbers> elementsOf; // by section
     for (const GlobalOrdinal element : body.elements)
       elementsOf[bodies_.sectionOf(element)].push_back(element);

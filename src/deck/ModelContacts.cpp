@@ -71,14 +71,18 @@ void ModelMaker::addContacts() {
   };
   for (const ContactPair& pair : deck_.contacts) {
     const Interaction& interaction = deck_.interactions.at(pair.interaction);
-    if (pair.adjust || !pair.adjustSet.empty())
-      model_.notes.push_back(text(pair.place) + ": ADJUST: nodes stay where they are, and so do the gaps");
+    if (!pair.adjustSet.empty())
+      throw InputError(text(pair.place) +
+                       ": *CONTACT PAIR: ADJUST with a set of nodes is not solved here; give the "
+                       "gap up to which nodes are to be adjusted");
     add(pair.dependent + " - " + pair.independent, pair.dependent, pair.independent, pair.place,
         [&](Teuchos::ParameterList& list) {
           if (interaction.law == Interaction::Law::tied)
             list.set("Kind", "tied");
           else if (interaction.friction > 0)
             list.set("Friction", interaction.friction);
+          if (pair.adjust && interaction.law != Interaction::Law::tied)
+            list.set("Adjust", *pair.adjust);
           if (interaction.law == Interaction::Law::linear)
             list.set("Stiffness", interaction.stiffness);
           if (interaction.friction > 0 && interaction.stickSlope.value_or(0) > 0)

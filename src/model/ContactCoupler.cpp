@@ -106,6 +106,7 @@ contact::ContactTerms Coupler::asked(const Side& first, const contact::UnitedSur
   contact::ContactTerms asked{
       name_,      first.surfaces.front(), dimensionOf(layoutOf(first).mesh->cellType()), components_,
       terms_.gap, terms_.distance};
+  asked.adjust = terms_.adjust;
   asked.sense = first.body == first_.body ? 1 : -1;
   if (first.surfaces.size() > 1)
     asked.parts = surface.parts;

@@ -114,6 +114,8 @@ void readSurfaces(const ListReader& entry, const std::vector<Body>& bodies,
   }
   if (const double distance = entry.real("Distance"); distance > 0)
     pair.distance = distance;
+  if (entry.has("Adjust"))
+    pair.adjust = entry.real("Adjust");
 }
 
 /// How the sides are joined.
@@ -143,6 +145,9 @@ void readFriction(const ListReader& entry, const Body& body, SurfaceContact& pai
   pair.frictionBound = entry.real("Friction Bound");
   pair.stiffness = entry.real("Stiffness");
   pair.stickSlope = entry.real("Stick Slope");
+  if (entry.has("Adjust") &&
+      (body.physics == fem::Physics::membrane || pair.kind == SurfaceContact::Kind::tied))
+    entry.refuseValue("Adjust", "membranes and tied joints have no gap that their shapes leave");
   for (const char* const name : {"Stiffness", "Stick Slope"}) {
     if (entry.real(name) > 0 && body.physics == fem::Physics::membrane)
       entry.refuseValue(name, "membranes do not give way where they touch");

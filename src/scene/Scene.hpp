@@ -37,6 +37,8 @@ struct SurfaceContact {
   std::string secondSurface;
   Obstacle obstacle{};
   double gap = 0; ///< added to the gap that geometry leaves (membranes: all there is); negative: penetration
+  /// Gaps of geometry up to this, overlaps too, count as none.
+  double adjust = -std::numeric_limits<double>::infinity();
   /// Nodes farther from the other side than this get no inequality: they cannot meet.
   double distance = std::numeric_limits<double>::infinity();
   Kind kind = Kind::contact;

@@ -244,6 +244,11 @@ void describePair(ParameterList& contact) {
       "Elastic bodies, instead of Friction: tangential tractions are at most this (force per area, Tresca's "
       "law), whatever the pressure is.",
       0.0);
+  addReal(pair, "Adjust", 0.0,
+          "Elastic bodies: gaps that their shapes leave count as none up to this one, and so do overlaps, "
+          "before Gap is "
+          "added; without it all count as they are.",
+          0.0);
   addReal(pair, "Stiffness", 0.0,
           "Elastic bodies: pressure over overclosure, force per volume, of surfaces that give way; 0: they "
           "do not.",
