@@ -62,7 +62,8 @@ void requireIntegration(const SolidBody& body) {
         "reduced integration goes with quadrilaterals of 8 nodes and hexahedra of 20 alone, but its "
         "mesh consists of " +
         std::string(toString(body.mesh.cellType())) +
-        "s; choose the integration \"full\", or read elements without inner nodes as they are");
+        "s; choose the integration \"full\", or the \"Inner Nodes\" \"none\" if its mesh file has such "
+        "elements");
   if (body.components() == 1)
     throw body.refusal("membranes are integrated fully; choose the integration \"full\"");
 }

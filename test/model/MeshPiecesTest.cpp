@@ -2,7 +2,9 @@
 
 #include "support/Gathered.hpp"
 #include "support/MeshFiles.hpp"
+#include "support/TurnedMesh.hpp"
 
+#include "epafi/mesh/MeshOrder.hpp"
 #include "epafi/mesh/MeshPart.hpp"
 
 #include <gtest/gtest.h>
@@ -112,6 +114,47 @@ INSTANTIATE_TEST_SUITE_P(OrdersAndJoints, MeshPiecesTest,
                          testing::Values(std::tuple(1, scene::SurfaceContact::Kind::contact, 0),
                                          std::tuple(2, scene::SurfaceContact::Kind::contact, 2),
                                          std::tuple(2, scene::SurfaceContact::Kind::tied, 0)));
+
+/// Hexahedra of 20 nodes, integrated by fewer points.
+scene::Scene bricks(const MeshFolder& folder, std::array<int, 3> elements, int parts) {
+  const mesh::StructuredMesh grid({{0, 0, 0}, {2, 3, 4}}, elements);
+  const mesh::MeshArrays arrays =
+      completed(epafi::test::arraysOf(grid, epafi::test::placed(3, 0.4, {0, 0, 0}), false), false,
+                mesh::InnerNodes::none);
+  scene::Scene scene;
+  scene.bodies = {body("lower", folder, parts, 0)};
+  scene::Body& only = scene.bodies[0];
+  only.mesh.file = folder.write("bricks.msh", epafi::test::fileOf(arrays));
+  only.mesh.group = "body";
+  only.mesh.innerNodes = mesh::InnerNodes::none;
+  only.reducedIntegration = true;
+  only.supports = {{"wall", "left", {0.0, 0.0, 0.0}}};
+  only.loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "right", {}, {3, 0, 0}}};
+  return scene;
+}
+
+TEST(BrickPiecesTest, AreTheSameWhereElementsOfTwentyNodesAreIntegratedByFewerPoints) {
+  const MeshFolder folder;
+  for (const int parts : {0, 3, 12, 60}) {
+    const scene::Scene scene = bricks(folder, {3, 4, 5}, parts);
+    const Decomposition whole = decompose(scene, world()), pieces = decompose(scene, world(), Meshes::pieces);
+    EXPECT_EQ(whole.bodies[0].mesh->cellType(), mesh::CellType::hexahedron20);
+    EXPECT_EQ(pieces.bodies[0].mesh->cellType(), mesh::CellType::hexahedron20);
+    ASSERT_EQ(pieces.problem.subdomains.size(), whole.problem.subdomains.size());
+    for (std::size_t s = 0; s < whole.problem.subdomains.size(); ++s)
+      expectEqual(pieces.problem.subdomains[s], whole.problem.subdomains[s]);
+  }
+}
+
+TEST(BrickPiecesTest, RowsOfSuchElementsAreRefused) {
+  const MeshFolder folder;
+  for (const Meshes meshes : {Meshes::whole, Meshes::pieces})
+    epafi::test::expectRefusal(
+        [&] {
+          decompose(bricks(folder, {1, 4, 1}, 2), world(), meshes);
+        },
+        {"'lower'", "loose", "along one axis"});
+}
 
 class RefusedPiecesTest : public testing::Test {
 protected:

@@ -1,0 +1,162 @@
+// What becomes of a deck: bodies, groups and parameters, as a scene's file would have them.
+
+#include "Decks.hpp"
+
+#include "epafi/deck/DeckModel.hpp"
+
+#include <Teuchos_Array.hpp>
+
+namespace {
+
+using namespace epafi;
+using namespace epafi::test;
+using Teuchos::ParameterList;
+
+/// Two cubes of one element each on top of each other; `upper` numbers the upper one's four lower nodes.
+std::string cubes(const std::string& upper, const std::string& more) {
+  return "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+         "15,0,0,1\n16,1,0,1\n17,1,1,1\n18,0,1,1\n25,0,0,2\n26,1,0,2\n27,1,1,2\n28,0,1,2\n"
+         "*ELEMENT,TYPE=C3D8,ELSET=EALL\n1,1,2,3,4,5,6,7,8\n2," +
+         upper +
+         ",25,26,27,28\n"
+         "*NSET,NSET=FOOT\n1,2,3,4\n*NSET,NSET=HEAD\n25,26,27,28\n"
+         "*MATERIAL,NAME=M\n*ELASTIC\n200.,.3\n*DENSITY\n2.\n*SOLID SECTION,ELSET=EALL,MATERIAL=M\n" +
+         more;
+}
+const std::string apart = "15,16,17,18", joined = "5,6,7,8";
+const std::string step = "*STEP\n*STATIC\n*END STEP\n";
+
+deck::DeckModel modelOf(const std::string& text) {
+  return deck::modelOf(deck::parseDeck(text, "a.inp"), "a.inp");
+}
+ParameterList& bodyOf(deck::DeckModel& model, int number) {
+  return model.scene.sublist("Bodies").sublist("body " + std::to_string(number));
+}
+std::string refusalOf(const std::string& text) {
+  try {
+    modelOf(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(DeckModelTest, BodiesAreWhatHangsTogetherByFaces) {
+  EXPECT_EQ(modelOf(cubes(joined, step)).nodeNumbers.size(), 1u);
+  const deck::DeckModel two = modelOf(cubes(apart, step));
+  ASSERT_EQ(two.nodeNumbers.size(), 2u);
+  EXPECT_EQ(two.nodeNumbers[1], (std::vector<GlobalOrdinal>{15, 16, 17, 18, 25, 26, 27, 28}));
+  EXPECT_EQ(two.elementNumbers[1], std::vector<GlobalOrdinal>{2});
+}
+
+TEST(DeckModelTest, NodesThatBodiesShareAreJoinedByEquations) {
+  // One edge in common: no face.
+  deck::DeckModel model = modelOf(cubes("5,6,17,18", step));
+  ASSERT_EQ(model.nodeNumbers.size(), 2u);
+  const ParameterList& equations = model.scene.sublist("Equations");
+  EXPECT_EQ(equations.numParams(), 6);
+  EXPECT_EQ(equations.sublist("node 5 of bodies 1 and 2 X").get<std::string>("Terms"),
+            "1 body 1/node 5/X, -1 body 2/node 5/X, ");
+}
+
+TEST(DeckModelTest, SupportsOfEqualValuesAreOne) {
+  deck::DeckModel model =
+      modelOf(cubes(joined, "*BOUNDARY\nFOOT,1,3\n*STEP\n*STATIC\n*BOUNDARY\nHEAD,3,3,-0.25\n*END STEP\n"));
+  const ParameterList& supports = bodyOf(model, 1).sublist("Supports");
+  ASSERT_EQ(supports.numParams(), 4); // x, y, z below; z above
+  int atHead = 0;
+  for (auto entry = supports.begin(); entry != supports.end(); ++entry) {
+    ParameterList list = Teuchos::getValue<ParameterList>(supports.entry(entry));
+    if (list.isParameter("Z") && list.get<double>("Z") == -0.25) {
+      ++atHead;
+      EXPECT_EQ(model.groups.nodes.at(list.get<std::string>("Surface")),
+                (std::vector<GlobalOrdinal>{25, 26, 27, 28}));
+    }
+  }
+  EXPECT_EQ(atHead, 1);
+}
+
+TEST(DeckModelTest, StepsReplaceForcesAndAStepAddsUpItsOwn) {
+  deck::DeckModel model =
+      modelOf(cubes(joined, "*BOUNDARY\nFOOT,1,3\n"
+                            "*STEP\n*STATIC\n*CLOAD\n25,3,1.\n25,3,2.\n26,3,5.\n*END STEP\n"
+                            "*STEP\n*STATIC\n*CLOAD\n25,3,7.\n*END STEP\n"
+                            "*STEP\n*STATIC\n*CLOAD,OP=NEW\n27,3,9.\n*END STEP\n"));
+  std::map<std::string, std::vector<std::pair<double, std::vector<GlobalOrdinal>>>> found; // by step
+  const ParameterList& loads = bodyOf(model, 1).sublist("Loads");
+  for (auto entry = loads.begin(); entry != loads.end(); ++entry) {
+    ParameterList load = Teuchos::getValue<ParameterList>(loads.entry(entry));
+    found[loads.name(entry).substr(0, 6)].emplace_back(
+        load.get<Teuchos::Array<double>>("Force")[2],
+        model.groups.nodes.at(load.get<std::string>("Surface")));
+  }
+  using Forces = std::vector<std::pair<double, std::vector<GlobalOrdinal>>>;
+  EXPECT_EQ(found["step 1"], (Forces{{3, {25}}, {5, {26}}}));
+  EXPECT_EQ(found["step 2"], (Forces{{5, {26}}, {7, {25}}}));
+  EXPECT_EQ(found["step 3"], (Forces{{9, {27}}}));
+  EXPECT_NE(
+      model.scene.sublist("Steps").sublist("step 2").get<std::string>("Loads").find("step 1 load 1 = 0"),
+      std::string::npos);
+}
+
+TEST(DeckModelTest, AmplitudesCountAtTheEndOfAStep) {
+  deck::DeckModel model =
+      modelOf(cubes(joined, "*AMPLITUDE,NAME=A\n0.,0.,4.,2.\n*BOUNDARY\nFOOT,1,3\n"
+                            "*STEP\n*STATIC\n1.,1.\n*CLOAD,AMPLITUDE=A\n25,3,10.\n*END STEP\n"));
+  const ParameterList& loads = bodyOf(model, 1).sublist("Loads");
+  ParameterList load = Teuchos::getValue<ParameterList>(loads.entry(loads.begin()));
+  EXPECT_EQ(load.get<Teuchos::Array<double>>("Force")[2], 5.0); // half of 2 after 1 of 4
+}
+
+TEST(DeckModelTest, WeightAndRotationHaveTheDensity) {
+  deck::DeckModel model = modelOf(cubes(
+      joined,
+      "*STEP\n*STATIC\n*DLOAD\nEALL,GRAV,10.,0.,0.,-1.\nEALL,CENTRIF,9.,0.,0.,0.,0.,0.,1.\n*END STEP\n"));
+  ParameterList& loads = bodyOf(model, 1).sublist("Loads");
+  EXPECT_EQ(loads.sublist("step 1 load 1").get<double>("Value"), 18.0);
+  EXPECT_EQ(loads.sublist("step 1 load 2").get<Teuchos::Array<double>>("Force")[2], -20.0);
+  EXPECT_FALSE(loads.sublist("step 1 load 2").isParameter("Group")) << "the whole body";
+}
+
+TEST(DeckModelTest, ContactsHaveTheLawOfTheirInteraction) {
+  const std::string pair = "*SURFACE,NAME=LOW\n1,S2\n*SURFACE,NAME=HIGH\n2,S1\n"
+                           "*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE,ADJUST=0.1\nHIGH,LOW\n"
+                           "*SURFACE INTERACTION,NAME=I\n";
+  deck::DeckModel model = modelOf(cubes(
+      apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n1e4,\n*FRICTION\n0.25,500.\n" + step));
+  ParameterList& soft = model.scene.sublist("Contact").sublist("HIGH - LOW");
+  EXPECT_EQ(soft.get<std::string>("First Body"), "body 2");
+  EXPECT_EQ(soft.get<double>("Stiffness"), 1e4);
+  EXPECT_EQ(soft.get<double>("Friction"), 0.25);
+  EXPECT_EQ(soft.get<double>("Stick Slope"), 500.0);
+  EXPECT_EQ(soft.get<double>("Adjust"), 0.1);
+  deck::DeckModel hard = modelOf(cubes(apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=HARD\n" + step));
+  EXPECT_FALSE(hard.scene.sublist("Contact").sublist("HIGH - LOW").isParameter("Stiffness"));
+  EXPECT_EQ(hard.groups.surfaces.at("HIGH"), (std::vector<std::pair<GlobalOrdinal, int>>{{2, 1}}));
+}
+
+TEST(DeckModelTest, SaysByLineWhatIsNotSolved) {
+  for (const auto& [more, part] :
+       {std::pair("", "no *STEP"),
+        std::pair("*STEP\n*STATIC\n*CLOAD\n15,1,1.\n*END STEP\n",
+                  "line 30: *CLOAD: node 15 belongs to no element"),
+        std::pair("*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\nFOOT,1\n*END STEP\n", "later step"),
+        std::pair("*BOUNDARY\nFOOT,1\n*STEP\n*STATIC\n*END "
+                  "STEP\n*STEP\n*STATIC\n*BOUNDARY,OP=NEW\nHEAD,1\n*END STEP\n",
+                  "*BOUNDARY"),
+        std::pair("*EQUATION\n2\n1,1,1.,15,1,-1.\n*STEP\n*STATIC\n*END STEP\n",
+                  "node 15 belongs to no element")})
+    EXPECT_NE(refusalOf(cubes(joined, more)).find(part), std::string::npos) << refusalOf(cubes(joined, more));
+}
+
+TEST(DeckModelTest, TheMeshHasTheNumbersOfTheDeckAndItsGroups) {
+  const deck::Deck deck = deck::parseDeck(cubes(joined, "*BOUNDARY\nFOOT,1,3\n" + step), "a.inp");
+  const deck::DeckModel model = deck::modelOf(deck, "a.inp");
+  const std::string text = mshText(deck, model.groups);
+  for (const char* const part :
+       {"$MeshFormat\n4.1 0 8\n", "3 1 \"body 1\"\n", "0 1 \"body 1 support 1\"\n",
+        "\n2 5 6 7 8 25 26 27 28\n", "1 12 1 28\n"}) // nodes 15 to 18 are of no element
+    EXPECT_NE(text.find(part), std::string::npos) << part << text;
+}
+
+} // namespace
