@@ -24,7 +24,7 @@ std::string cubes(const std::string& upper, const std::string& more) {
          more;
 }
 const std::string apart = "15,16,17,18", joined = "5,6,7,8";
-const std::string step = "*STEP\n*STATIC\n*END STEP\n";
+const std::string oneStep = "*STEP\n*STATIC\n*END STEP\n";
 
 deck::DeckModel modelOf(const std::string& text) {
   return deck::modelOf(deck::parseDeck(text, "a.inp"), "a.inp");
@@ -42,8 +42,8 @@ std::string refusalOf(const std::string& text) {
 }
 
 TEST(DeckModelTest, BodiesAreWhatHangsTogetherByFaces) {
-  EXPECT_EQ(modelOf(cubes(joined, step)).nodeNumbers.size(), 1u);
-  const deck::DeckModel two = modelOf(cubes(apart, step));
+  EXPECT_EQ(modelOf(cubes(joined, oneStep)).nodeNumbers.size(), 1u);
+  const deck::DeckModel two = modelOf(cubes(apart, oneStep));
   ASSERT_EQ(two.nodeNumbers.size(), 2u);
   EXPECT_EQ(two.nodeNumbers[1], (std::vector<GlobalOrdinal>{15, 16, 17, 18, 25, 26, 27, 28}));
   EXPECT_EQ(two.elementNumbers[1], std::vector<GlobalOrdinal>{2});
@@ -51,7 +51,7 @@ TEST(DeckModelTest, BodiesAreWhatHangsTogetherByFaces) {
 
 TEST(DeckModelTest, NodesThatBodiesShareAreJoinedByEquations) {
   // One edge in common: no face.
-  deck::DeckModel model = modelOf(cubes("5,6,17,18", step));
+  deck::DeckModel model = modelOf(cubes("5,6,17,18", oneStep));
   ASSERT_EQ(model.nodeNumbers.size(), 2u);
   const ParameterList& equations = model.scene.sublist("Equations");
   EXPECT_EQ(equations.numParams(), 6);
@@ -113,8 +113,8 @@ TEST(DeckModelTest, WeightAndRotationHaveTheDensity) {
       joined,
       "*STEP\n*STATIC\n*DLOAD\nEALL,GRAV,10.,0.,0.,-1.\nEALL,CENTRIF,9.,0.,0.,0.,0.,0.,1.\n*END STEP\n"));
   ParameterList& loads = bodyOf(model, 1).sublist("Loads");
-  EXPECT_EQ(loads.sublist("step 1 load 1").get<double>("Value"), 18.0);
-  EXPECT_EQ(loads.sublist("step 1 load 2").get<Teuchos::Array<double>>("Force")[2], -20.0);
+  EXPECT_EQ(loads.sublist("step 1 load 2").get<double>("Value"), 18.0);
+  EXPECT_EQ(loads.sublist("step 1 load 1").get<Teuchos::Array<double>>("Force")[2], -20.0);
   EXPECT_FALSE(loads.sublist("step 1 load 2").isParameter("Group")) << "the whole body";
 }
 
@@ -123,14 +123,15 @@ TEST(DeckModelTest, ContactsHaveTheLawOfTheirInteraction) {
                            "*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE,ADJUST=0.1\nHIGH,LOW\n"
                            "*SURFACE INTERACTION,NAME=I\n";
   deck::DeckModel model = modelOf(cubes(
-      apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n1e4,\n*FRICTION\n0.25,500.\n" + step));
+      apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n1e4,\n*FRICTION\n0.25,500.\n" + oneStep));
   ParameterList& soft = model.scene.sublist("Contact").sublist("HIGH - LOW");
   EXPECT_EQ(soft.get<std::string>("First Body"), "body 2");
   EXPECT_EQ(soft.get<double>("Stiffness"), 1e4);
   EXPECT_EQ(soft.get<double>("Friction"), 0.25);
   EXPECT_EQ(soft.get<double>("Stick Slope"), 500.0);
   EXPECT_EQ(soft.get<double>("Adjust"), 0.1);
-  deck::DeckModel hard = modelOf(cubes(apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=HARD\n" + step));
+  deck::DeckModel hard =
+      modelOf(cubes(apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=HARD\n" + oneStep));
   EXPECT_FALSE(hard.scene.sublist("Contact").sublist("HIGH - LOW").isParameter("Stiffness"));
   EXPECT_EQ(hard.groups.surfaces.at("HIGH"), (std::vector<std::pair<GlobalOrdinal, int>>{{2, 1}}));
 }
@@ -139,7 +140,7 @@ TEST(DeckModelTest, SaysByLineWhatIsNotSolved) {
   for (const auto& [more, part] :
        {std::pair("", "no *STEP"),
         std::pair("*STEP\n*STATIC\n*CLOAD\n15,1,1.\n*END STEP\n",
-                  "line 30: *CLOAD: node 15 belongs to no element"),
+                  "line 34: *CLOAD: node 15 belongs to no element"),
         std::pair("*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\nFOOT,1\n*END STEP\n", "later step"),
         std::pair("*BOUNDARY\nFOOT,1\n*STEP\n*STATIC\n*END "
                   "STEP\n*STEP\n*STATIC\n*BOUNDARY,OP=NEW\nHEAD,1\n*END STEP\n",
@@ -150,7 +151,7 @@ TEST(DeckModelTest, SaysByLineWhatIsNotSolved) {
 }
 
 TEST(DeckModelTest, TheMeshHasTheNumbersOfTheDeckAndItsGroups) {
-  const deck::Deck deck = deck::parseDeck(cubes(joined, "*BOUNDARY\nFOOT,1,3\n" + step), "a.inp");
+  const deck::Deck deck = deck::parseDeck(cubes(joined, "*BOUNDARY\nFOOT,1,3\n" + oneStep), "a.inp");
   const deck::DeckModel model = deck::modelOf(deck, "a.inp");
   const std::string text = mshText(deck, model.groups);
   for (const char* const part :
