@@ -1,0 +1,158 @@
+// Contacts of a stiffness of their own: p = K times the overclosure, C = 1/(K a) beside F.
+
+#include "support/SolidScenes.hpp"
+
+#include <cmath>
+#include <tuple>
+
+namespace epafi {
+namespace {
+
+using namespace test;
+
+constexpr double pressure = 3, young = 200;
+
+/// Two blocks of height 1 on top of each other, pressed from above; the upper one `across` elements wide, the
+/// lower one two, so that mortars join all but two on two. Sides are free, and ν is 0: stress is uniform.
+scene::Scene stack(int dimension, int order, int across, double stiffness) {
+  scene::Scene scene;
+  for (const bool isUpper : {false, true}) {
+    const double low = isUpper ? 1 : 0;
+    const mesh::Box box =
+        dimension == 2 ? mesh::Box{{0, low, 0}, {2, low + 1, 0}} : mesh::Box{{0, 0, low}, {2, 1, low + 1}};
+    const int n = isUpper ? across : 2;
+    scene.bodies.push_back(block(isUpper ? "upper" : "lower", box,
+                                 dimension == 2 ? std::array{n, 2, 0} : std::array{n, 2, 2},
+                                 cutInGrid({2, 1, 1})));
+    scene.bodies.back().material.youngsModulus = young;
+    scene.bodies.back().material.poissonsRatio = 0;
+    scene.bodies.back().mesh.order = order;
+    scene.bodies.back().supports.push_back(slide("left"));
+    if (dimension == 3)
+      scene.bodies.back().supports.push_back(slide("front"));
+  }
+  scene.bodies[0].supports.push_back(slide("bottom"));
+  scene.bodies[1].loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "top", {}, {pressure, 0, 0}}};
+  scene.contacts = {between("joint", 1, "bottom", 0, "top")};
+  scene.contacts[0].stiffness = stiffness;
+  return scene;
+}
+
+/// Along the load, of the nodes at a height.
+void expectMoved(const SolidRun& run, int body, int dimension, double height, double expected) {
+  const mesh::Mesh& mesh = *run.decomposition.bodies[body].mesh;
+  const Eigen::VectorXd u = run.displacement(body);
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+    if (std::abs(mesh.point(node)[static_cast<std::size_t>(dimension - 1)] - height) < 1e-9) {
+      EXPECT_NEAR(u[node * dimension + dimension - 1], expected, 1e-8 * std::abs(expected) + 1e-12);
+    }
+}
+
+class SoftContactTest : public testing::TestWithParam<std::tuple<int, int, int>> {};
+
+TEST_P(SoftContactTest, GivesWayByPressureOverStiffness) {
+  const auto [dimension, order, across] = GetParam();
+  for (const double stiffness : {1e-1, 1e2, 1e6}) {
+    const SolidRun run(stack(dimension, order, across, stiffness));
+    expectMoved(run, 0, dimension, 1, -pressure / young);
+    expectMoved(run, 1, dimension, 1, -pressure / young - pressure / stiffness);
+    expectMoved(run, 1, dimension, 2, -2 * pressure / young - pressure / stiffness);
+    EXPECT_NEAR(run.solution.contactForce, pressure * 2, 1e-7);
+    // All is linear here: energy is minus half the work, that of the contact too.
+    EXPECT_NEAR(run.solution.energy, -0.5 * run.solution.loadWork, 1e-8 * run.solution.loadWork);
+  }
+}
+
+TEST_P(SoftContactTest, OpensWhereItIsPulled) {
+  const auto [dimension, order, across] = GetParam();
+  scene::Scene scene = stack(dimension, order, across, 50);
+  scene.bodies[1].supports.push_back(slide("top", 0.25)); // lifted
+  scene.bodies[1].loads.clear();
+  const SolidRun run(scene);
+  EXPECT_NEAR(run.solution.contactForce, 0, 1e-10);
+  expectMoved(run, 1, dimension, 1, 0.25);
+}
+
+TEST_P(SoftContactTest, TendsToHardContactAsItStiffens) {
+  const auto [dimension, order, across] = GetParam();
+  const auto bent = [&](double stiffness) { // pressed at one end alone: it opens at the other
+    scene::Scene scene = stack(dimension, order, across, stiffness);
+    scene.bodies[1].supports.clear();
+    if (dimension == 3)
+      scene.bodies[1].supports.push_back(slide("front"));
+    scene.bodies[1].supports.push_back(slide("right"));
+    scene.bodies[1].loads = {{"press", fem::SolidLoad::Kind::traction, {}, "left", {}, {}}};
+    scene.bodies[1].loads[0].value[static_cast<std::size_t>(dimension - 1)] = -1;
+    return SolidRun(scene);
+  };
+  const SolidRun hard = bent(0), stiff = bent(1e9), stiffer = bent(1e11);
+  const auto apart = [&](const SolidRun& run) {
+    return (run.displacement(1) - hard.displacement(1)).norm() / hard.displacement(1).norm();
+  };
+  EXPECT_LT(apart(stiff), 1e-4);
+  EXPECT_LT(apart(stiffer), 0.05 * apart(stiff) + 1e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(DimensionsOrdersAndMeshes, SoftContactTest,
+                         testing::Combine(testing::Values(2, 3), testing::Values(1, 2),
+                                          testing::Values(2, 3)));
+
+TEST(StickSlopeTest, SticksBySlopeTimesShift) {
+  for (const int dimension : {2, 3}) {
+    scene::Scene scene = stack(dimension, 1, 2, 0);
+    constexpr double slope = 40, shear = 0.5;
+    scene.contacts[0].friction = 0.9;
+    scene.contacts[0].stickSlope = slope;
+    scene.bodies[1].supports.clear();
+    if (dimension == 3)
+      scene.bodies[1].supports.push_back(slide("front"));
+    scene.bodies[1].supports.push_back(slide("top", -0.01));
+    scene.bodies[1].loads.clear();
+    scene.bodies[0].supports.clear();
+    scene.bodies[0].supports.push_back({"held", "bottom", {0.0, 0.0, 0.0}});
+    scene.bodies[0].supports.push_back(
+        {"top", "top", {0.0, 0.0, 0.0}}); // the lower block does not move at all
+    scene.bodies[1].loads = {{"push", fem::SolidLoad::Kind::traction, {}, "right", {}, {shear, 0, 0}}};
+    const SolidRun run(scene);
+    // Force on the right face = area of it × shear, borne by the joint's springs: the mean shift follows.
+    double force = 0;
+    const auto values = run.solution.multiplier->getData();
+    const auto slack = run.solution.slack->getData();
+    double slip = 0;
+    for (const decomposition::FrictionNode& node : run.decomposition.problem.frictionNodes) {
+      force += values[node.firstTangent];
+      slip = std::max(slip, std::abs(slack[node.firstTangent]));
+    }
+    force = sumOverRanks(*run.decomposition.problem.comm, force);
+    EXPECT_NEAR(std::abs(force), shear * 1, 1e-8);
+    EXPECT_LT(maxOverRanks(*run.decomposition.problem.comm, slip), 1e-8) << "it sticks";
+    const mesh::Mesh& mesh = *run.decomposition.bodies[1].mesh;
+    const Eigen::VectorXd u = run.displacement(1);
+    double shift = 0, weight = 0; // by the trapezoidal rule over the joint's nodes
+    for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+      if (std::abs(mesh.point(node)[static_cast<std::size_t>(dimension - 1)] - 1) < 1e-9) {
+        const bool isEnd = std::abs(mesh.point(node)[0] - 1) > 0.9;
+        const bool isSide = dimension == 3 && std::abs(mesh.point(node)[1] - 0.5) > 0.4;
+        const double share = (isEnd ? 0.5 : 1.0) * (isSide ? 0.5 : 1.0);
+        shift += share * u[node * dimension];
+        weight += share;
+      }
+    EXPECT_NEAR(shift / weight, shear * 1 / (2 * slope), 1e-8);
+  }
+}
+
+TEST(AdjustTest, GapsUpToItCountAsNone) {
+  for (const int across : {2, 3}) {
+    scene::Scene scene = stack(2, 1, across, 0);
+    scene.bodies[1].mesh.box = {{0, 1.01, 0}, {2, 2.01, 0}};
+    scene.contacts[0].adjust = 0.02;
+    expectMoved(SolidRun(scene), 1, 2, 2.01, -2 * pressure / young);
+    scene.contacts[0].adjust = 0.005;
+    expectMoved(SolidRun(scene), 1, 2, 2.01, -0.01 - 2 * pressure / young);
+    scene.bodies[1].mesh.box = {{0, 0.99, 0}, {2, 1.99, 0}}; // overlaps
+    expectMoved(SolidRun(scene), 1, 2, 1.99, -2 * pressure / young);
+  }
+}
+
+} // namespace
+} // namespace epafi
