@@ -69,7 +69,7 @@ struct Scene {
   std::string title;
   std::vector<Body> bodies;
   std::vector<SurfaceContact> contacts;
-  std::vector<Equation> equations;
+  std::vector<Equation> equations{};
 };
 
 } // namespace epafi::scene
