@@ -77,6 +77,10 @@ void refuseUnsolved(const Deck& deck) {
     throw InputError(
         text(deck.pretensions.front().place) +
         ": *PRE-TENSION SECTION: bolts are not tightened here yet; give the section's ends forces");
+  for (const Step& step : deck.steps)
+    if (!step.pairs.empty())
+      throw InputError(text(step.pairs.front().place) +
+                       ": *MODEL CHANGE: contact pairs that come or go with a step are not solved here");
   requireNoThermalStrain(deck);
 }
 

@@ -1,10 +1,10 @@
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
 #include "epafi/deck/ModelMaker.hpp"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <sstream>
 
 namespace epafi::deck {
 
@@ -35,13 +35,12 @@ Eigen::Matrix3d ModelMaker::axesOf(GlobalOrdinal node) const {
 
 /// "0.5 body 1/node 17/X, 0.5 body 1/node 17/Y".
 std::string ModelMaker::term(int body, GlobalOrdinal node, const Eigen::Vector3d& direction) {
-  std::ostringstream out;
-  out.precision(17);
+  std::string terms;
   const std::string nodes = nodesNamed("node " + std::to_string(node), {node});
   for (int c = 0; c < bodies_.all()[body].type->dimension; ++c)
     if (direction[c] != 0)
-      out << direction[c] << ' ' << bodies_.all()[body].name << '/' << nodes << '/' << "XYZ"[c] << ", ";
-  return out.str();
+      terms += valueText(direction[c]) + ' ' + bodies_.all()[body].name + '/' + nodes + '/' + "XYZ"[c] + ", ";
+  return terms;
 }
 
 void ModelMaker::addEquation(const std::string& name, const std::string& terms, double value) {

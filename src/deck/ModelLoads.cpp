@@ -1,24 +1,17 @@
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
 #include "epafi/deck/ModelMaker.hpp"
 
 #include <Teuchos_Array.hpp>
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 namespace epafi::deck {
 namespace {
 
 using Teuchos::Array;
 using Teuchos::ParameterList;
-
-std::string exactly(double value) {
-  std::ostringstream out;
-  out.precision(17);
-  out << value;
-  return out.str();
-}
 
 /// What cards say of things of one kind as steps go by: a card replaces what earlier steps say of a thing, and
 /// adds to what its own step says.
@@ -138,7 +131,8 @@ void ModelMaker::addSupports() {
                Array<double>({axes.a[0], axes.a[1], axes.a[2], axes.b[0], axes.b[1], axes.b[2]}));
     }
     for (std::size_t k = 0; base != 0 && k < values.size(); ++k)
-      supportFactors_[k] += bodies_.all()[body].name + '/' + name + " = " + exactly(values[k] / base) + ", ";
+      supportFactors_[k] +=
+          bodies_.all()[body].name + '/' + name + " = " + valueText(values[k] / base) + ", ";
   }
 }
 

@@ -25,7 +25,7 @@ public:
   void addSteps();
   /// Equations of the deck, and those of nodes that bodies share.
   void addEquations();
-  /// Contact pairs and ties.
+  /// Contact pairs and ties, and what changes of them with the steps.
   void addContacts();
   [[nodiscard]] DeckModel take() { return std::move(model_); }
 
@@ -58,6 +58,8 @@ private:
   void addEquation(const std::string& name, const std::string& terms, double value);
 
   // ModelContacts.cpp
+  void changeFriction();
+  [[nodiscard]] bool hasNodesOf(const std::string& set, const std::string& surface) const;
   [[nodiscard]] std::map<int, std::string> surfacesOf(const std::string& surface, const Place& place);
 
   const Deck& deck_;
@@ -68,6 +70,7 @@ private:
   std::map<GlobalOrdinal, int> transformOf_; ///< place in Deck::transforms
   /// Of each step the factors of loads and supports, "body/load = 1, …".
   std::vector<std::string> loadFactors_, supportFactors_;
+  std::map<std::string, std::vector<std::string>> contactsOf_; ///< their names, by interactions
 };
 
 } // namespace epafi::deck

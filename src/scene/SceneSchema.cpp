@@ -314,6 +314,7 @@ void describeStep(ParameterList& steps) {
   step.set("Supports", "",
            "By what the displacements are multiplied that supports prescribe: \"body/support = factor\", …");
   step.set("Gaps", "", "Gap of contacts: \"contact = gap\", …");
+  step.set("Friction", "", "Coefficient of contacts that have Friction: \"contact = coefficient\", …");
 }
 
 ParameterList sceneSchema() {

@@ -71,22 +71,39 @@ std::map<Step::Place, double> factorsOf(const ListReader& step, const std::strin
   return factors;
 }
 
-std::map<int, double> gapsOf(const ListReader& step, const Scene& scene) {
+/// Numbers of contacts, by their places in the scene.
+std::map<int, double> ofContacts(const ListReader& step, const std::string& parameter, const Scene& scene) {
   std::vector<std::string> names;
   for (const SurfaceContact& contact : scene.contacts)
     names.push_back(contact.name);
-  std::map<int, double> gaps;
-  for (const auto& [name, gap] : entriesOf(step, "Gaps")) {
-    int place = 0;
-    while (place < std::ssize(names) && names[place] != name)
-      ++place;
-    if (place == std::ssize(names))
-      refuseName(step, "Gaps", name, names);
-    if (scene.contacts[place].kind == SurfaceContact::Kind::tied)
-      step.refuseValue("Gaps", "\"" + name + "\" is a tied joint, which keeps the gap that there is");
-    gaps[place] = gap;
+  std::map<int, double> numbers;
+  for (const auto& [name, number] : entriesOf(step, parameter)) {
+    const auto place = std::find(names.begin(), names.end(), name);
+    if (place == names.end())
+      refuseName(step, parameter, name, names);
+    numbers[static_cast<int>(place - names.begin())] = number;
   }
+  return numbers;
+}
+
+std::map<int, double> gapsOf(const ListReader& step, const Scene& scene) {
+  std::map<int, double> gaps = ofContacts(step, "Gaps", scene);
+  for (const auto& [place, gap] : gaps)
+    if (scene.contacts[place].kind == SurfaceContact::Kind::tied)
+      step.refuseValue("Gaps", "\"" + scene.contacts[place].name +
+                                   "\" is a tied joint, which keeps the gap that there is");
   return gaps;
+}
+
+/// Rows of friction are made once: contacts have it in all steps or in none.
+std::map<int, double> frictionOf(const ListReader& step, const Scene& scene) {
+  std::map<int, double> friction = ofContacts(step, "Friction", scene);
+  for (const auto& [place, coefficient] : friction)
+    if (scene.contacts[place].friction == 0 || !(coefficient > 0))
+      step.refuseValue("Friction",
+                       "\"" + scene.contacts[place].name +
+                           "\" must have a coefficient greater than 0 both here and in its own list");
+  return friction;
 }
 
 } // namespace
@@ -107,7 +124,7 @@ std::vector<Step> readSteps(const Teuchos::ParameterList& list, const std::strin
                          entry, "Loads", scene, [](const Body& body) -> auto& { return body.loads; }),
                      factorsOf(
                          entry, "Supports", scene, [](const Body& body) -> auto& { return body.supports; }),
-                     gapsOf(entry, scene)});
+                     gapsOf(entry, scene), frictionOf(entry, scene)});
   }
   return steps;
 }
@@ -121,6 +138,8 @@ Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
       supports[place] = factor;
     for (const auto& [contact, gap] : steps[k].gaps)
       scene.contacts[contact].gap = gap;
+    for (const auto& [contact, coefficient] : steps[k].friction)
+      scene.contacts[contact].friction = coefficient;
   }
   for (const auto& [place, factor] : loads)
     for (double& component : scene.bodies[place.first].loads[place.second].value)

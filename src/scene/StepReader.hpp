@@ -20,6 +20,7 @@ struct Step {
   std::map<Place, double> loads;    ///< by what the scene's loads are multiplied
   std::map<Place, double> supports; ///< by what the displacements that supports prescribe are multiplied
   std::map<int, double> gaps;       ///< Gap of contacts, by their places in Scene::contacts
+  std::map<int, double> friction{}; ///< Friction of contacts that have it, likewise
 };
 
 /// The list `Steps` of a scene's list, in its order; none if there is none.
