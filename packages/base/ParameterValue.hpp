@@ -21,7 +21,8 @@ std::string typeName(const Teuchos::ParameterEntry& entry);
 std::string valueText(const Teuchos::ParameterEntry& entry);
 std::string valueText(double value);
 
-/// The value as parseValue() takes it, in all its digits and letters. Precondition: of one of parameterTypes().
+/// The value as parseValue() takes it, in all its digits and letters. Precondition: of one of
+/// parameterTypes().
 std::string spelledOut(const Teuchos::ParameterEntry& entry);
 
 /// The finite number that a text spells out, blanks around it aside. \throws InputError like parseValue()

@@ -56,8 +56,8 @@ private:
 /// dᵀ(u_first − u_second) ≤ gap for all rows of all contacts. A node that supports hold in the row's
 /// direction has no entry but those of its prescribed values. Collective.
 /// \param contacts   the same on all ranks
-/// \param equations  likewise; their rows follow those of contacts. The rank has a row that is to own those of
-/// its first term's node
+/// \param equations  likewise; their rows follow those of contacts. The rank has a row that is to own those
+/// of its first term's node
 decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
                                               const NodeUnknowns& unknowns, const RCP<const Comm>& comm,
                                               const std::vector<Equation>& equations = {});

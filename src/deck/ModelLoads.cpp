@@ -13,8 +13,8 @@ namespace {
 using Teuchos::Array;
 using Teuchos::ParameterList;
 
-/// What cards say of things of one kind as steps go by: a card replaces what earlier steps say of a thing, and
-/// adds to what its own step says.
+/// What cards say of things of one kind as steps go by: a card replaces what earlier steps say of a thing,
+/// and adds to what its own step says.
 template <class Key, class Card>
 class History {
 public:

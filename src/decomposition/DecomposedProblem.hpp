@@ -172,7 +172,8 @@ struct DecomposedProblem {
   /// Of rows of contact that this rank owns, as far as anyone knows; no number comes from them, but refusals.
   std::vector<ContactPlace> places;
   std::vector<FrictionNode> frictionNodes; ///< whose rows this rank owns, ascending
-  /// C, on multiplierMap: by what rows of contact and friction give way under a force of 1, ≥ 0. Null: none does.
+  /// C, on multiplierMap: by what rows of contact and friction give way under a force of 1, ≥ 0. Null: none
+  /// does.
   RCP<const Vector> compliance;
   /// Of a row of B.
   [[nodiscard]] RowKind kindOf(MultiplierNumber row) const {

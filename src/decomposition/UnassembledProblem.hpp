@@ -87,8 +87,8 @@ public:
   /// that do not suit those of contact.
   void setFriction(const FrictionRows& friction);
 
-  /// Takes C: by what rows of contact and friction give way under a force of 1, each ≥ 0; a penalty that is none in
-  /// K. Not collective. Precondition: complete.
+  /// Takes C: by what rows of contact and friction give way under a force of 1, each ≥ 0; a penalty that is
+  /// none in K. Not collective. Precondition: complete.
   /// \param compliance  on problem().multiplierMap, 0 for other rows; or null
   void setCompliance(RCP<const Vector> compliance) { problem_.compliance = std::move(compliance); }
 

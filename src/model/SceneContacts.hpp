@@ -61,8 +61,8 @@ contact::NodeUnknowns nodeUnknowns(const std::vector<BodyLayout>& bodies,
                                    const std::vector<std::unique_ptr<fem::BodyModel>>& models,
                                    const RCP<const Comm>& comm);
 
-/// C of contacts that give way, on multiplierMap; null if none does. Rows that contacts share have the springs of
-/// all side by side. Collective.
+/// C of contacts that give way, on multiplierMap; null if none does. Rows that contacts share have the
+/// springs of all side by side. Collective.
 RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<contact::ContactLayout>& contacts,
                                const decomposition::DecomposedProblem& problem);
 

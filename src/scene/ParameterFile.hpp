@@ -11,9 +11,9 @@
 
 namespace epafi::scene {
 
-/// Reads an input deck (.inp, .inp.gz), which becomes the list that describes the same (deck/DeckModel.hpp), or a
-/// file of nested `<ParameterList>` and `<Parameter name= type= value=>` elements, in the file's
-/// order. Rank 0 reads the file and broadcasts its text.
+/// Reads an input deck (.inp, .inp.gz), which becomes the list that describes the same (deck/DeckModel.hpp),
+/// or a file of nested `<ParameterList>` and `<Parameter name= type= value=>` elements, in the file's order.
+/// Rank 0 reads the file and broadcasts its text.
 ///
 /// \throws InputError (the same on all ranks) if the file is missing, is a directory, is empty or larger than
 ///         64 MiB, and as parseParameters().

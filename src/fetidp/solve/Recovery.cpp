@@ -35,8 +35,8 @@ void slackOf(const DualProblem& dual, const ProblemData& data, const SubdomainVe
     slack.elementWiseMultiply(1.0, *compliance, lambda, 1.0);
 }
 
-/// ½uᵀKu − fᵀu over all subdomains, and ½λᵀCλ. Of u before its rigid part Rα, which has no energy but −ẽᵀα: in the sum
-/// it would only bring round-off, the more the stiffer the body.
+/// ½uᵀKu − fᵀu over all subdomains, and ½λᵀCλ. Of u before its rigid part Rα, which has no energy but −ẽᵀα:
+/// in the sum it would only bring round-off, the more the stiffer the body.
 double energyOf(const DecomposedProblem& problem, const ProblemData& data, const SubdomainVectors& u,
                 const Vector& lambda) {
   AccurateSum energy;
