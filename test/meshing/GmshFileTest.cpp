@@ -91,6 +91,22 @@ TEST_F(GmshFileTest, ABodyHasItsOwnNodesAndTheSurfacesThatBoundIt) {
   EXPECT_EQ(right.point(1), (Point{2, 0, 0}));
 }
 
+TEST_F(GmshFileTest, GroupsOfPointsAreSetsOfNodes) {
+  std::string text = replaced(plate41, "3\n1 1 \"left\"", "4\n0 7 \"tip\"\n1 1 \"left\"");
+  text = replaced(text, "3 5 5 0 0\n", "3 5 5 0 1 7\n");
+  const std::string others = "$Elements\n3 3 1 3\n", withPoint = "$Elements\n4 4 1 4\n0 3 15 1\n";
+  const auto named = [&](const std::string& node) {
+    return plate(replaced(text, others, withPoint + "4 " + node + '\n'));
+  };
+  EXPECT_TRUE(named("9").body("").nodeSetNames().empty()) << "node 9 is none of the body";
+  const GmshFile file = named("6");
+  const mesh::UnstructuredMesh all = file.body(""), right = file.body("right");
+  EXPECT_EQ(all.nodeSetNames(), std::vector<std::string>{"tip"});
+  EXPECT_EQ(all.nodeSet("tip"), std::vector<GlobalOrdinal>{5});
+  EXPECT_EQ(right.nodeTag(right.nodeSet("tip").at(0)), 6);
+  EXPECT_TRUE(file.body("west").nodeSetNames().empty());
+}
+
 TEST_F(GmshFileTest, GroupsWithoutANameAreCalledByTheirNumber) {
   const std::string names = plate41.substr(plate41.find("$PhysicalNames"),
                                            plate41.find("$Entities") - plate41.find("$PhysicalNames"));

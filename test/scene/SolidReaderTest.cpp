@@ -239,6 +239,36 @@ TEST(SolidReaderTest, ReadsEveryKindOfLoad) {
   EXPECT_EQ(read[3].value[1], 2.0);
 }
 
+TEST(SolidReaderTest, ReadsLoadsAtGroupsOfNodesAndOfBodiesThatTurn) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& loads = bodyOf(list, "cube").sublist("Loads");
+  loads.sublist("nodes").set("Kind", "point").set("Surface", "tip").set("Force", numbers({0, 2, 0}));
+  loads.sublist("turn").set("Kind", "rotation").set("Axis", numbers({0, 0, 2})).set("Value", 3.0);
+  const std::vector<fem::SolidLoad> read = solidOf(list).loads;
+  EXPECT_EQ(read.at(0).where, "tip");
+  EXPECT_EQ(read.at(1).kind, fem::SolidLoad::Kind::rotation);
+  EXPECT_EQ(read.at(1).axis, (Vector3{0, 0, 2}));
+  EXPECT_EQ(read.at(1).value[0], 3.0);
+  loads.sublist("nodes").set("Point", numbers({0, 0, 0}));
+  EXPECT_NE(refusal([&] { solidOf(list); }).find("\"Surface\", too"), std::string::npos);
+}
+
+TEST(SolidReaderTest, ReadsAxesOfSupports) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& support = bodyOf(list, "cube").sublist("Supports").sublist("wall");
+  support = ParameterList();
+  support.set("Surface", "left").set("X", 0.5).set("Cylinder", numbers({1, 0, 0, 1, 0, 2}));
+  const fem::SolidSupport read = solidOf(list).supports.at(0);
+  ASSERT_TRUE(read.axes);
+  EXPECT_TRUE(read.axes->isCylindrical);
+  EXPECT_EQ(read.axes->b, (Vector3{1, 0, 2}));
+  support.set("Cylinder", numbers({1, 0, 0, 1, 0, 0}));
+  EXPECT_NE(refusal([&] { solidOf(list); }).find("that is one point"), std::string::npos);
+  support.remove("Cylinder");
+  support.set("Axes", numbers({1, 0, 0, -2, 0, 0}));
+  EXPECT_NE(refusal([&] { solidOf(list); }).find("that is one direction"), std::string::npos);
+}
+
 TEST(SolidReaderTest, ARegionKeepsWhatItDoesNotChange) {
   ParameterList list = cubeOnFloor();
   bodyOf(list, "cube")

@@ -63,13 +63,35 @@ TEST(StepReaderTest, WithoutTheListThereAreNoSteps) {
   EXPECT_TRUE(stepsOf(loaded()).empty());
 }
 
+TEST(StepReaderTest, ANumberMayHaveItsSign) {
+  ParameterList list = loaded();
+  list.sublist("Steps").sublist("press").set("Loads", "left/push = +3, right/push = -2.5,");
+  const scene::Step step = stepsOf(list).at(0);
+  EXPECT_EQ(step.loads.at({0, 0}), 3);
+  EXPECT_EQ(step.loads.at({1, 0}), -2.5);
+}
+
+TEST(StepReaderTest, CoefficientsOfFrictionChangeWhereThereIsFriction) {
+  const scene::Scene scene = [] {
+    scene::Scene made;
+    made.contacts.resize(1);
+    made.contacts[0].friction = 0.25;
+    return made;
+  }();
+  scene::Step step;
+  step.friction[0] = 0.5;
+  EXPECT_EQ(scene::atStep(scene, {step}, 0).contacts[0].friction, 0.5);
+  expectSays(refusalOfStep("Friction", "interface = 0.5"),
+             {"\"Friction\"", "\"interface\"", "greater than 0"});
+}
+
 TEST(StepReaderTest, RefusesWhatIsNotThere) {
   expectSays(refusalOfStep("Loads", "left/psuh=1"),
              {"a.xml: ", "\"Loads\"", "\"Steps/press\"", "left/psuh", "did you mean \"left/push\"?"});
   expectSays(refusalOfStep("Supports", "right/x=1"), {"\"Supports\"", "right/x", "\"left/wall\""});
   expectSays(refusalOfStep("Gaps", "contact=1"), {"\"Gaps\"", "contact", "\"interface\""});
   for (const char* const text :
-       {"left/push", "left/push=", "left/push=two", "left/push=1e999", "=", "left/push=1 2"})
+       {"left/push", "left/push=", "left/push=two", "left/push=1e999", "=", "left/push=1 2", "left/push=+-1"})
     expectSays(refusalOfStep("Loads", text), {"\"Loads\"", "name = number"});
   expectSays(refusalOfStep("Loads", "left/push = 1, left/push = 0"),
              {"\"Loads\"", "\"left/push\" is named twice"});
