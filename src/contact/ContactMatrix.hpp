@@ -9,6 +9,7 @@
 
 #include <array>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace epafi::contact {
@@ -34,6 +35,7 @@ struct Equation {
   };
   std::vector<Term> terms; ///< at least one
   double value = 0;
+  std::string name{}; ///< for messages
 };
 
 /// The tangents of a contact's nodes, perpendicular to each other and to d, or to what of d lies in a plane

@@ -223,6 +223,7 @@ struct PairChange {
 struct Step {
   Place place;
   bool isNonlinear = false; ///< NLGEOM
+  bool isPerturbation = false;
   double period = 1;
   /// OP=NEW: what earlier steps prescribed of this kind is gone.
   bool newBoundaries = false, newForces = false, newDistributedLoads = false, newTemperatures = false;

@@ -77,14 +77,25 @@ void DeckBodies::addBodies(const Elements& elements) {
     DeckBody& body = bodies_[place->second];
     body.elements.push_back(elements.numbers[e]);
     bodyOfElement_[elements.numbers[e]] = static_cast<int>(place->second);
-    const auto nodes = elements.nodes.begin() + e * elements.nodesPerElement;
-    body.nodes.insert(body.nodes.end(), nodes, nodes + elements.nodesPerElement);
+    const std::size_t count = elements.nodesPerElement;
+    const auto nodes = std::span(elements.nodes).subspan(e * count, count);
+    nodesOf_[elements.numbers[e]] = nodes;
+    body.nodes.insert(body.nodes.end(), nodes.begin(), nodes.end());
   }
   for (const auto& [lowest, place] : bodyAt) {
     Numbers& nodes = bodies_[place].nodes;
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
+}
+
+std::vector<GlobalOrdinal> DeckBodies::cornersOf(const std::pair<GlobalOrdinal, int>& face) const {
+  const auto nodes = nodesOf(face.first);
+  const std::vector<std::vector<int>>& faces = bodies_[ofElement(face.first)].type->faces;
+  std::vector<GlobalOrdinal> corners;
+  for (const int corner : faces.at(face.second - 1))
+    corners.push_back(nodes[corner]);
+  return corners;
 }
 
 const std::vector<int>& DeckBodies::ofNode(GlobalOrdinal node) const {

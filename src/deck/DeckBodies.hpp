@@ -6,7 +6,9 @@
 #include "epafi/deck/DeckElements.hpp"
 
 #include <map>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace epafi::deck {
@@ -31,6 +33,12 @@ public:
   [[nodiscard]] int ofElement(GlobalOrdinal element) const { return bodyOfElement_.at(element); }
   /// Those that have a node, ascending; none of a node without elements.
   [[nodiscard]] const std::vector<int>& ofNode(GlobalOrdinal node) const;
+  /// All nodes of an element.
+  [[nodiscard]] std::span<const GlobalOrdinal> nodesOf(GlobalOrdinal element) const {
+    return nodesOf_.at(element);
+  }
+  /// Corners of a face of an element. Precondition: it has the face, S1 being 1.
+  [[nodiscard]] std::vector<GlobalOrdinal> cornersOf(const std::pair<GlobalOrdinal, int>& face) const;
   /// Section of an element, as its place in Deck::sections.
   [[nodiscard]] int sectionOf(GlobalOrdinal element) const { return sectionOf_.at(element); }
 
@@ -41,6 +49,7 @@ private:
   std::vector<DeckBody> bodies_;
   std::map<GlobalOrdinal, int> bodyOfElement_, sectionOf_;
   std::map<GlobalOrdinal, std::vector<int>> bodiesOfNode_;
+  std::map<GlobalOrdinal, std::span<const GlobalOrdinal>> nodesOf_;
 };
 
 } // namespace epafi::deck

@@ -78,6 +78,10 @@ void refuseUnsolved(const Deck& deck) {
         text(deck.pretensions.front().place) +
         ": *PRE-TENSION SECTION: bolts are not tightened here yet; give the section's ends forces");
   for (const Step& step : deck.steps)
+    if (step.isPerturbation && deck.steps.size() > 1)
+      throw InputError(text(step.place) + ": *STEP: a step of PERTURBATION among others is not solved here; make it "
+                                          "a deck of its own");
+  for (const Step& step : deck.steps)
     if (!step.pairs.empty())
       throw InputError(text(step.pairs.front().place) +
                        ": *MODEL CHANGE: contact pairs that come or go with a step are not solved here");
@@ -146,7 +150,9 @@ void ModelMaker::addBodies() {
     for (const auto& [section, elements] : elementsOf) {
       ParameterList* own = &list;
       if (isRegion) {
-        const std::string name = deck_.sections[section].elementSet;
+        std::string name = deck_.sections[section].elementSet;
+        if (model_.groups.elements.contains(name))
+          name += " of " + body.name; // each body has its own part
         own = &list.sublist("Regions").sublist(name);
         own->set("Group", elementsNamed(name, elements));
       }

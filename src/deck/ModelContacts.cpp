@@ -3,121 +3,142 @@
 #include "epafi/deck/ModelMaker.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace epafi::deck {
 namespace {
 
-using FaceList = std::vector<std::pair<GlobalOrdinal, int>>;
+/// Share of an element's size up to which *TIE bonds nodes if it does not say how far, as CalculiX has it.
+constexpr double usualTolerance = 0.025;
 
-/// FaceList of one element alone all of whose corners are among some nodes.
-FaceList facesAt(const Deck& deck, const std::vector<GlobalOrdinal>& nodes) {
-  std::map<std::vector<GlobalOrdinal>, FaceList> facesOf; // by corners, ascending
-  for (const Elements& elements : deck.elements) {
-    const ElementForm& type = formOf(elements);
-    for (std::size_t e = 0; e < elements.numbers.size(); ++e)
-      for (int f = 0; f < std::ssize(type.faces); ++f) {
-        std::vector<GlobalOrdinal> corners;
-        for (const int corner : type.faces[f])
-          corners.push_back(elements.nodes[e * elements.nodesPerElement + corner]);
+/// A face of an element, and where it is.
+using Face = std::pair<GlobalOrdinal, int>;
+
+} // namespace
+
+/// Faces of one element alone all of whose corners are among some nodes. \throws InputError if a node is in
+/// none of them
+std::vector<Face> ModelMaker::facesAt(const Surface& surface, const std::string& name) const {
+  std::map<Numbers, std::vector<Face>> facesOf; // by corners, ascending
+  for (const DeckBody& body : bodies_.all())
+    for (const GlobalOrdinal element : body.elements)
+      for (int label = 1; label <= std::ssize(body.type->faces); ++label) {
+        Numbers corners = bodies_.cornersOf({element, label});
         std::sort(corners.begin(), corners.end());
-        if (std::includes(nodes.begin(), nodes.end(), corners.begin(), corners.end()))
-          facesOf[corners].emplace_back(elements.numbers[e], f + 1);
+        if (std::includes(surface.nodes.begin(), surface.nodes.end(), corners.begin(), corners.end()))
+          facesOf[corners].emplace_back(element, label);
       }
-  }
-  FaceList faces;
+  std::vector<Face> faces;
+  std::set<GlobalOrdinal> bare(surface.nodes.begin(), surface.nodes.end());
   for (const auto& [corners, at] : facesOf)
-    if (at.size() == 1)
+    if (at.size() == 1) {
       faces.push_back(at.front());
+      for (const GlobalOrdinal node : bodies_.nodesOf(at.front().first))
+        bare.erase(node);
+    }
+  if (!bare.empty())
+    throw InputError(text(surface.place) + ": *SURFACE: node " + std::to_string(*bare.begin()) + " of " + name +
+                     " belongs to no face of an element that has all its corners in it; define the surface by "
+                     "the elements' faces");
   std::sort(faces.begin(), faces.end());
   return faces;
 }
 
-} // namespace
-
-/// Bodies that have faces of a surface, and what the surface is called in their meshes.
-std::map<int, std::string> ModelMaker::surfacesOf(const std::string& surface, const Place& place) {
+/// Bodies that have faces of a surface; the mesh has it under its name.
+std::set<int> ModelMaker::bodiesAt(const std::string& surface) {
   const Surface& given = deck_.surfaces.at(surface);
-  const FaceList faces = given.ofNodes ? facesAt(deck_, given.nodes) : given.faces;
-  if (faces.empty())
-    throw InputError(text(place) + ": the nodes of the surface " + surface +
-                     " make no face of an element; define it by the elements' faces");
-  std::map<int, std::string> names;
-  for (const auto& [element, label] : faces)
-    names.try_emplace(bodies_.ofElement(element), surface);
-  model_.groups.surfaces[surface] = faces;
+  std::vector<Face>& faces = model_.groups.surfaces[surface];
+  faces = given.ofNodes ? facesAt(given, surface) : given.faces;
+  std::set<int> bodies;
+  for (const Face& face : faces)
+    bodies.insert(bodies_.ofElement(face.first));
+  return bodies;
+}
+
+/// Mean length of the first edges of a surface's faces. Precondition: bodiesAt() has found them.
+double ModelMaker::typicalSize(const std::string& surface) const {
+  const std::vector<Face>& faces = model_.groups.surfaces.at(surface);
+  double sum = 0;
+  for (const Face& face : faces) {
+    const Numbers corners = bodies_.cornersOf(face);
+    const Point &a = pointOf(corners[0]), &b = pointOf(corners[1]);
+    sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  }
+  return sum / static_cast<double>(faces.size());
+}
+
+/// Whether a set has all corners of a surface's faces.
+bool ModelMaker::hasNodesOf(const std::string& set, const std::string& surface) const {
+  const Numbers& nodes = deck_.nodeSets.at(set);
+  const std::vector<Face>& faces = model_.groups.surfaces.at(surface);
+  return std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
+    const Numbers corners = bodies_.cornersOf(face);
+    return std::all_of(corners.begin(), corners.end(), [&](GlobalOrdinal node) {
+      return std::binary_search(nodes.begin(), nodes.end(), node);
+    });
+  });
+}
+
+/// A list for each two bodies that have faces of two surfaces, under names of their own; these.
+std::vector<std::string> ModelMaker::addPairs(const std::string& name, const std::string& dependent,
+                                              const std::string& independent, const Place& place) {
+  Teuchos::ParameterList& contacts = model_.scene.sublist("Contact");
+  const std::set<int> first = bodiesAt(dependent), second = bodiesAt(independent);
+  std::vector<std::string> names;
+  for (const int body : first)
+    for (const int other : second) {
+      if (body == other)
+        throw InputError(text(place) + ": " + name +
+                         ": both surfaces are of one body, which cannot touch itself here");
+      std::string own = name;
+      for (int number = 2; contacts.isSublist(own); ++number)
+        own = name + ' ' + std::to_string(number);
+      Teuchos::ParameterList& pair = contacts.sublist(own);
+      pair.set("First Body", bodies_.all()[body].name);
+      pair.set("First Surface", dependent);
+      pair.set("Second Body", bodies_.all()[other].name);
+      pair.set("Second Surface", independent);
+      names.push_back(own);
+    }
   return names;
 }
 
-/// Whether a set has all nodes of a surface's faces.
-bool ModelMaker::hasNodesOf(const std::string& set, const std::string& surface) const {
-  const Numbers& nodes = deck_.nodeSets.at(set);
-  const auto has = [&](GlobalOrdinal node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
-  const Surface& given = deck_.surfaces.at(surface);
-  for (const Elements& elements : deck_.elements)
-    for (const auto& [element, label] : given.faces) {
-      const auto at = std::lower_bound(elements.numbers.begin(), elements.numbers.end(), element);
-      if (at == elements.numbers.end() || *at != element)
-        continue;
-      for (const int corner : formOf(elements).faces.at(label - 1))
-        if (!has(elements.nodes[(at - elements.numbers.begin()) * elements.nodesPerElement + corner]))
-          return false;
-    }
-  return std::all_of(given.nodes.begin(), given.nodes.end(), has);
+void ModelMaker::addContactPair(const ContactPair& pair) {
+  const Interaction& interaction = deck_.interactions.at(pair.interaction);
+  if (interaction.law == Interaction::Law::tied)
+    throw InputError(text(interaction.place) + ": *SURFACE BEHAVIOR: TIED, a bond with a stiffness, is not "
+                                               "solved here; *TIE bonds surfaces as they are");
+  for (const std::string& name :
+       addPairs(pair.dependent + " - " + pair.independent, pair.dependent, pair.independent, pair.place)) {
+    contactsOf_[pair.interaction].push_back(name);
+    Teuchos::ParameterList& list = model_.scene.sublist("Contact").sublist(name);
+    if (interaction.friction > 0)
+      list.set("Friction", interaction.friction);
+    if (interaction.law == Interaction::Law::linear)
+      list.set("Stiffness", interaction.stiffness);
+    if (interaction.friction > 0 && interaction.stickSlope.value_or(0) > 0)
+      list.set("Stick Slope", *interaction.stickSlope);
+    constexpr double whatever = 1e30;
+    if (pair.adjust || !pair.adjustSet.empty())
+      list.set("Adjust", pair.adjust.value_or(whatever));
+  }
+  if (!pair.adjustSet.empty() && !hasNodesOf(pair.adjustSet, pair.dependent))
+    throw InputError(text(pair.place) + ": *CONTACT PAIR: ADJUST with a part of the nodes is not solved here; "
+                                        "give the gap up to which nodes are to be adjusted");
 }
 
 void ModelMaker::addContacts() {
-  Teuchos::ParameterList& contacts = model_.scene.sublist("Contact");
-  const auto add = [&](const std::string& name, const std::string& dependent, const std::string& independent,
-                       const Place& place, const auto& fill) {
-    const auto first = surfacesOf(dependent, place), second = surfacesOf(independent, place);
-    int number = 0;
-    for (const auto& [body, surface] : first)
-      for (const auto& [other, facing] : second) {
-        if (body == other)
-          throw InputError(text(place) + ": " + name +
-                           ": both surfaces are of one body, which cannot touch "
-                           "itself here");
-        const std::string own = number++ == 0 ? name : name + ' ' + std::to_string(number);
-        Teuchos::ParameterList& pair = contacts.sublist(own);
-        pair.set("First Body", bodies_.all()[body].name);
-        pair.set("First Surface", surface);
-        pair.set("Second Body", bodies_.all()[other].name);
-        pair.set("Second Surface", facing);
-        fill(pair, own);
-      }
-  };
-  for (const ContactPair& pair : deck_.contacts) {
-    const Interaction& interaction = deck_.interactions.at(pair.interaction);
-    const bool isWhole = !pair.adjustSet.empty() && hasNodesOf(pair.adjustSet, pair.dependent);
-    if (!pair.adjustSet.empty() && !isWhole)
-      throw InputError(text(pair.place) +
-                       ": *CONTACT PAIR: ADJUST with a part of the nodes is not solved here; give the "
-                       "gap up to which nodes are to be adjusted");
-    add(pair.dependent + " - " + pair.independent, pair.dependent, pair.independent, pair.place,
-        [&](Teuchos::ParameterList& list, const std::string& name) {
-          contactsOf_[pair.interaction].push_back(name);
-          if (interaction.law == Interaction::Law::tied)
-            list.set("Kind", "tied");
-          else if (interaction.friction > 0)
-            list.set("Friction", interaction.friction);
-          constexpr double whatever = 1e30;
-          if ((pair.adjust || isWhole) && interaction.law != Interaction::Law::tied)
-            list.set("Adjust", pair.adjust.value_or(whatever));
-          if (interaction.law == Interaction::Law::linear)
-            list.set("Stiffness", interaction.stiffness);
-          if (interaction.friction > 0 && interaction.stickSlope.value_or(0) > 0)
-            list.set("Stick Slope", *interaction.stickSlope);
-        });
-  }
+  for (const ContactPair& pair : deck_.contacts)
+    addContactPair(pair);
   changeFriction();
   for (const Tie& tie : deck_.ties)
-    add(tie.name, tie.dependent, tie.independent, tie.place,
-        [&](Teuchos::ParameterList& list, const std::string& /*name*/) {
-          list.set("Kind", "tied");
-          if (tie.tolerance)
-            list.set("Distance", *tie.tolerance);
-        });
+    for (const std::string& name :
+         addPairs(tie.name.empty() ? "tie" : tie.name, tie.dependent, tie.independent, tie.place)) {
+      Teuchos::ParameterList& list = model_.scene.sublist("Contact").sublist(name);
+      list.set("Kind", "tied");
+      list.set("Distance", tie.tolerance.value_or(usualTolerance * typicalSize(tie.dependent)));
+    }
 }
 
 void ModelMaker::changeFriction() {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <functional>
 
 namespace epafi::deck {
 
@@ -62,7 +63,10 @@ void ModelMaker::addEquations() {
         continue;
       }
       const auto known = held.find({each.node, each.component - 1}); // a node that stands for a number
-      if (known == held.end() || known->second.front() != known->second.back())
+      const auto changes = [](const std::vector<double>& values) {
+        return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) != values.end();
+      };
+      if (known == held.end() || changes(known->second))
         throw InputError(text(equation.place) + ": *EQUATION: node " + std::to_string(each.node) +
                          " belongs to no element, and no *BOUNDARY holds it at one value");
       value -= each.factor * known->second.front();

@@ -60,8 +60,8 @@ double ModelMaker::factorAt(const std::string& amplitude, double delay, std::siz
   for (std::size_t k = 0; curve.isOfTotalTime && k < step; ++k)
     time += deck_.steps[k].period;
   const auto& points = curve.points;
-  const auto behind =
-      std::find_if(points.begin(), points.end(), [&](const auto& point) { return point.first >= time; });
+  const auto behind = // of two values at one time the later one holds
+      std::find_if(points.begin(), points.end(), [&](const auto& point) { return point.first > time; });
   if (behind == points.begin() || behind == points.end())
     return behind == points.end() ? points.back().second : points.front().second;
   const auto& before = *(behind - 1);
@@ -212,18 +212,19 @@ void ModelMaker::addPressures(std::size_t step) {
 }
 
 void ModelMaker::addBodyForces(std::size_t step) {
-  History<std::pair<GlobalOrdinal, std::string>, DistributedLoad> history; // by element and label
+  // By elements, label, and direction or axis: only what is alike in these is replaced.
+  History<std::tuple<Numbers, std::string, std::vector<double>>, DistributedLoad> history;
   for (std::size_t k = 0; k <= step; ++k) {
     history.beginStep(deck_.steps[k].newDistributedLoads);
     for (const DistributedLoad& load : deck_.steps[k].loads)
-      for (const GlobalOrdinal element : load.elements)
-        if (load.label == "GRAV" || load.label == "CENTRIF")
-          history.add({element, load.label}, &load);
+      if (load.label == "GRAV" || load.label == "CENTRIF")
+        history.add({load.elements, load.label, {load.values.begin() + 1, load.values.end()}}, &load);
   }
   std::map<std::tuple<int, int, const DistributedLoad*>, Numbers> groups; // by body and section
   for (const auto& [key, cards] : history.all())
     for (const DistributedLoad* card : cards)
-      groups[{bodies_.ofElement(key.first), bodies_.sectionOf(key.first), card}].push_back(key.first);
+      for (const GlobalOrdinal element : card->elements)
+        groups[{bodies_.ofElement(element), bodies_.sectionOf(element), card}].push_back(element);
   for (const auto& [key, elements] : groups) {
     const auto& [body, section, card] = key;
     const Material& material = deck_.materials.at(deck_.sections[section].material);
@@ -240,7 +241,7 @@ void ModelMaker::addBodyForces(std::size_t step) {
       return Eigen::Vector3d(card->values.at(first), card->values.at(first + 1), card->values.at(first + 2));
     };
     if (card->label == "GRAV") {
-      load.set("Force", firstOf(size * vector(1), dimension));
+      load.set("Force", firstOf(size * vector(1).normalized(), dimension));
       continue;
     }
     load.set("Value", size);

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -58,9 +59,15 @@ private:
   void addEquation(const std::string& name, const std::string& terms, double value);
 
   // ModelContacts.cpp
-  void changeFriction();
+  [[nodiscard]] std::vector<std::pair<GlobalOrdinal, int>> facesAt(const Surface& surface,
+                                                                   const std::string& name) const;
+  [[nodiscard]] std::set<int> bodiesAt(const std::string& surface);
+  [[nodiscard]] double typicalSize(const std::string& surface) const;
   [[nodiscard]] bool hasNodesOf(const std::string& set, const std::string& surface) const;
-  [[nodiscard]] std::map<int, std::string> surfacesOf(const std::string& surface, const Place& place);
+  [[nodiscard]] std::vector<std::string> addPairs(const std::string& name, const std::string& dependent,
+                                                  const std::string& independent, const Place& place);
+  void addContactPair(const ContactPair& pair);
+  void changeFriction();
 
   const Deck& deck_;
   std::string mesh_;

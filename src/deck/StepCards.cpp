@@ -41,6 +41,7 @@ void readStep(Reading& reading, const Card& card) {
   reading.hasProcedure = false;
   reading.deck.steps.emplace_back();
   reading.step().place = card.place;
+  reading.step().isPerturbation = card.has("PERTURBATION");
   reading.step().isNonlinear = reading.isNonlinear && !card.has("PERTURBATION");
 }
 

@@ -205,10 +205,9 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   if (std::any_of(result.contacts.begin(), result.contacts.end(),
                   [](const contact::ContactLayout& each) { return each.firstFriction >= 0; }))
     problem.setFriction(contact::frictionRows(result.contacts, unknowns, comm));
-  std::vector<contact::Equation> equations;
-  collectively(*comm, [&] { equations = equationsOf(scene, models); });
-  if (!result.ties.empty() || !equations.empty())
-    problem.setTies(contact::contactMatrix(result.ties, unknowns, comm, equations));
+  collectively(*comm, [&] { result.equations = equationsOf(scene, models); });
+  if (!result.ties.empty() || !result.equations.empty())
+    problem.setTies(contact::contactMatrix(result.ties, unknowns, comm, result.equations));
   problem.complete();
   result.data = problem.data();
   setFrictionData(scene, result.contacts, problem.problem(), result.data);

@@ -4,6 +4,7 @@
 /// assembles them, and hands over subdomains and a contact matrix.
 
 #include "epafi/contact/ContactLayout.hpp"
+#include "epafi/contact/ContactMatrix.hpp"
 #include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
@@ -19,6 +20,7 @@ struct Decomposition {
   std::vector<BodyLayout> bodies;
   std::vector<contact::ContactLayout> contacts;
   std::vector<contact::ContactLayout> ties;
+  std::vector<contact::Equation> equations; ///< their rows follow those of ties
   decomposition::DecomposedProblem problem;
   decomposition::ProblemData data;
 };

@@ -57,6 +57,17 @@ private:
   std::map<std::pair<int, std::string>, GlobalOrdinal> known_;
 };
 
+/// With terms of the size 1: rows of B are alike in size.
+contact::Equation scaled(contact::Equation equation) {
+  double largest = 0;
+  for (const contact::Equation::Term& term : equation.terms)
+    largest = std::max(largest, term.direction.norm());
+  for (contact::Equation::Term& term : equation.terms)
+    term.direction /= largest;
+  equation.value /= largest;
+  return equation;
+}
+
 /// Whether supports prescribe all of an equation. \throws SolvabilityError if they contradict it
 bool isFixed(const contact::Equation& equation, const std::string& name,
              const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
@@ -83,12 +94,23 @@ std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
   std::vector<contact::Equation> equations;
   EquationNodes nodes(scene, models);
   for (const scene::Equation& each : scene.equations) {
-    contact::Equation equation{{}, each.value};
-    for (const scene::Equation::Term& term : each.terms)
-      equation.terms.push_back(
-          {term.body, nodes.of(each, term), term.factor * Eigen::Vector3d::Unit(term.component)});
+    contact::Equation equation{{}, each.value, each.name};
+    for (const scene::Equation::Term& term : each.terms) {
+      const GlobalOrdinal node = nodes.of(each, term);
+      const Eigen::Vector3d share = term.factor * Eigen::Vector3d::Unit(term.component);
+      const auto same = std::find_if(equation.terms.begin(), equation.terms.end(), [&](const auto& other) {
+        return other.body == term.body && other.node == node;
+      });
+      if (same != equation.terms.end())
+        same->direction += share;
+      else
+        equation.terms.push_back({term.body, node, share});
+    }
+    std::erase_if(equation.terms, [](const auto& term) { return term.direction.isZero(0); });
+    if (equation.terms.empty())
+      throw InputError("the terms of the equation " + inQuotes(each.name) + " cancel; remove it");
     if (!isFixed(equation, each.name, models))
-      equations.push_back(std::move(equation));
+      equations.push_back(scaled(std::move(equation)));
   }
   return equations;
 }

@@ -13,10 +13,17 @@ namespace {
 
 /// A row of a scene.
 struct Origin {
-  const contact::ContactLayout& layout;
-  bool isTied;
-  GlobalOrdinal node; ///< of the first body
+  std::string name;
+  int body;
+  GlobalOrdinal node; ///< of the body
 };
+
+std::string nameOf(const model::Decomposition& decomposition, const contact::ContactLayout& layout,
+                   bool isTied) {
+  const auto body = [&](int number) { return '\'' + decomposition.bodies[number].name + '\''; };
+  return (isTied ? "the tied joint '" : "the contact '") + layout.name + "' of " + body(layout.firstBody) +
+         (layout.secondBody >= 0 ? " and " + body(layout.secondBody) : " with an obstacle");
+}
 
 Origin originOf(const model::Decomposition& decomposition, GlobalOrdinal row) {
   for (const auto* layouts : {&decomposition.contacts, &decomposition.ties}) {
@@ -25,18 +32,17 @@ Origin originOf(const model::Decomposition& decomposition, GlobalOrdinal row) {
       numRows = std::max(numRows, layout.firstRow + layout.numRows());
       const std::size_t place = row - layout.firstRow;
       if (row >= layout.firstRow && row < layout.firstRow + layout.numRows() && layout.portion(place) > 0)
-        return {layout, layouts == &decomposition.ties, layout.firstNodes[place]};
+        return {nameOf(decomposition, layout, layouts == &decomposition.ties), layout.firstBody,
+                layout.firstNodes[place]};
     }
     row -= numRows;
   }
-  throw Error("the scene has no row of contact or ties number " + std::to_string(row) + " behind its last");
-}
-
-std::string nameOf(const model::Decomposition& decomposition, const Origin& origin) {
-  const auto body = [&](int number) { return '\'' + decomposition.bodies[number].name + '\''; };
-  return (origin.isTied ? "the tied joint '" : "the contact '") + origin.layout.name + "' of " +
-         body(origin.layout.firstBody) +
-         (origin.layout.secondBody >= 0 ? " and " + body(origin.layout.secondBody) : " with an obstacle");
+  if (row < std::ssize(decomposition.equations)) {
+    const contact::Equation& equation = decomposition.equations[row];
+    return {"the equation '" + equation.name + "'", equation.terms.front().body, equation.terms.front().node};
+  }
+  throw Error("the scene has no row of contact, ties or equations number " + std::to_string(row) +
+              " behind its last");
 }
 
 } // namespace
@@ -45,9 +51,9 @@ fetidp::ContradictionError inWordsOf(const model::Decomposition& decomposition,
                                      const fetidp::ContradictionError& error) {
   std::vector<std::string> names;
   for (const GlobalOrdinal row : error.rows())
-    names.push_back(nameOf(decomposition, originOf(decomposition, row)));
+    names.push_back(originOf(decomposition, row).name);
   const Origin first = originOf(decomposition, error.rows().front());
-  const mesh::Mesh& mesh = *decomposition.bodies[first.layout.firstBody].mesh;
+  const mesh::Mesh& mesh = *decomposition.bodies[first.body].mesh;
   const Point point = mesh.point(first.node);
   const std::size_t dimension = mesh::dimensionOf(mesh.cellType());
   return {error.rows(), error.misfit(), std::move(names), text(std::span(point.data(), dimension))};

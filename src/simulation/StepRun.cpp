@@ -95,6 +95,7 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
       cut.bodies = std::move(next.bodies);
       cut.contacts = std::move(next.contacts);
       cut.ties = std::move(next.ties);
+      cut.equations = std::move(next.equations);
       cut.data = std::move(next.data);
       slip.enter(cut.data);
       solveAgain(run, options);
