@@ -18,7 +18,7 @@ namespace epafi::accuracy {
 
 struct ErrorEstimate {
   double discretisation = 0; ///< η
-  double energyNorm = 0;     ///< ‖u_h‖_K
+  double energyNorm = 0;     ///< ‖u_h‖_K; where temperatures change, of the strain that has stress alone
   /// η² of each element, in the order of Partition::elementsOf, of each of this rank's subdomains.
   std::vector<std::vector<double>> elements;
 
@@ -40,6 +40,9 @@ public:
   /// passes over the elements, one exchange of the nodes that subdomains share. Sums are the same on any
   /// number of ranks but for round-off. Collective.
   ErrorEstimate operator()(std::span<const Eigen::VectorXd> displacement);
+
+  /// ‖v‖_K of a displacement beside which no temperature changes. Collective.
+  double normOf(std::span<const Eigen::VectorXd> displacement);
 
 private:
   const model::Decomposition& decomposition_;
