@@ -37,8 +37,8 @@ struct ElementView {
   std::span<const int> nodes; ///< places among the subdomain's nodes
   std::span<const Point> points;
   std::span<const double> displacements; ///< node by node, components in space
-  std::span<const double>
-      temperatureChange; ///< at the nodes; empty of a body of which no temperature changes
+  /// At the nodes; empty of a body of which no temperature changes.
+  std::span<const double> temperatureChange;
 };
 
 /// Where the points of an element view are.

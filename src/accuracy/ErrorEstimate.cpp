@@ -16,7 +16,8 @@ double ErrorEstimate::relative() const {
 }
 
 ErrorEstimator::ErrorEstimator(const scene::Scene& scene, const model::Decomposition& decomposition)
-    : decomposition_(decomposition), bodies_(elementsOfBodies(scene, decomposition)) {}
+    : decomposition_(decomposition), bodies_(elementsOfBodies(scene, decomposition)),
+      isHeated_(std::any_of(scene.bodies.begin(), scene.bodies.end(), fem::isHeated)) {}
 
 namespace {
 
@@ -86,6 +87,9 @@ ErrorEstimate ErrorEstimator::operator()(std::span<const Eigen::VectorXd> displa
   estimate.discretisation = std::sqrt(sums[0].value());
   estimate.energyNorm =
       std::sqrt(std::max(0.0, sums[1].value())); // of a rigid motion it is round-off of either sign
+  constexpr double roundOff = 1e-10;
+  if (const double whole = isHeated_ ? normOf(displacement) : 0; estimate.energyNorm <= roundOff * whole)
+    estimate.energyNorm = whole;
   return estimate;
 }
 

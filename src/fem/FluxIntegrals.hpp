@@ -84,8 +84,8 @@ struct FieldValue {
   std::array<double, 6> flux{};         ///< numFluxes(physics) of them, as if no temperature changed
 };
 
-/// Norms of u_h − u, u given at points, whatever the temperatures are; by a rule that is exact for polynomials of degree 5 (of degree 3 on
-/// tetrahedra) of each coordinate, on elements of any form.
+/// Norms of u_h − u, u given at points, whatever the temperatures are; by a rule that is exact for
+/// polynomials of degree 5 (of degree 3 on tetrahedra) of each coordinate, on elements of any form.
 DisplacementNorms differenceNorms(mesh::CellType type, std::span<const Point> points, Physics physics,
                                   const Material& material, std::span<const double> displacements,
                                   const std::function<FieldValue(const Point&)>& exact);
