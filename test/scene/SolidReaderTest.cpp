@@ -226,6 +226,41 @@ TEST(SolidReaderTest, ReadsEveryKindOfLoad) {
   EXPECT_EQ(read[3].value[1], 2.0);
 }
 
+TEST(SolidReaderTest, ReadsTemperaturesOfAllNodesOrOfASurface) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& cube = bodyOf(list, "cube");
+  cube.set("Expansion", 1.2e-5);
+  ParameterList& loads = cube.sublist("Loads");
+  loads.sublist("warm").set("Kind", "temperature").set("Value", 80.0);
+  loads.sublist("cold").set("Kind", "temperature").set("Value", -5.0).set("Surface", "top");
+  const scene::Body read = solidOf(list);
+  EXPECT_EQ(read.material.expansion, 1.2e-5);
+  ASSERT_EQ(read.loads.size(), 2u);
+  for (const fem::SolidLoad& load : read.loads)
+    EXPECT_EQ(load.kind, fem::SolidLoad::Kind::temperature);
+  EXPECT_EQ(read.loads[0].where, "");
+  EXPECT_EQ(read.loads[0].value[0], 80);
+  EXPECT_EQ(read.loads[1].where, "top");
+  loads.sublist("cold").set("Force", numbers({1, 0, 0}));
+  expectSays(refusal([&] { solidOf(list); }), {"Loads/cold", "\"Force\"", "\"Value\""});
+}
+
+TEST(SolidReaderTest, AMembraneDoesNotExpand) {
+  const auto refused = [](const std::function<void(ParameterList&)>& change) {
+    ParameterList list;
+    ParameterList& body = bodyOf(list, "skin");
+    body.set("Mesh", "skin.msh");
+    change(body);
+    return refusal([&] { scene::readScene(list, "scenes/a.xml"); });
+  };
+  expectSays(refused([](ParameterList& body) { body.set("Expansion", 1e-5); }),
+             {"\"Expansion\"", "membranes have none"});
+  expectSays(refused([](ParameterList& body) {
+               body.sublist("Loads").sublist("warm").set("Kind", "temperature").set("Value", 1.0);
+             }),
+             {"\"Kind\"", "membranes do not expand"});
+}
+
 TEST(SolidReaderTest, ARegionKeepsWhatItDoesNotChange) {
   ParameterList list = cubeOnFloor();
   bodyOf(list, "cube")
