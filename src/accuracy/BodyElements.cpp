@@ -22,10 +22,10 @@ std::vector<fem::Material> materialsOf(const scene::Body& body) {
 
 BodyElements::BodyElements(const scene::Body& body, const model::BodyLayout& layout)
     : layout_(layout), physics_(body.physics), materials_(materialsOf(body)),
-      shape_(mesh::congruentShape(*layout.mesh)),
-      model_(materials_.size() > 1 ? model::makeModel(body, *layout.mesh) : nullptr),
+      shape_(mesh::congruentShape(*layout.mesh)), isHeated_(fem::isHeated(body)),
+      model_(materials_.size() > 1 || isHeated_ ? model::makeModel(body, *layout.mesh) : nullptr),
       numberings_(maxNumberings, maxNumbers) {
-  if (!shape_.empty())
+  if (!shape_.empty() && !isHeated_)
     for (const fem::Material& material : materials_)
       congruent_.emplace_back(cellType(), shape_, physics_, material);
 }
@@ -40,7 +40,7 @@ SubdomainElements BodyElements::elementsOf(const decomposition::Subdomain& subdo
       [&](const fem::LocalNumbering& known) { return known.firstNodeIfShifted(corners).has_value(); });
   if (!result.numbering)
     result.numbering = numberings_.add(fem::LocalNumbering(corners, perElement), corners.size());
-  if (model_) {
+  if (materials_.size() > 1) {
     result.regions.resize(result.elements.size());
     model_->regions(result.elements, result.regions);
   }

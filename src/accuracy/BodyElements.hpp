@@ -37,6 +37,8 @@ struct ElementView {
   std::span<const int> nodes; ///< places among the subdomain's nodes
   std::span<const Point> points;
   std::span<const double> displacements; ///< node by node, components in space
+  /// At the nodes; empty of a body of which no temperature changes.
+  std::span<const double> temperatureChange;
 };
 
 /// Where the points of an element view are.
@@ -61,7 +63,7 @@ public:
   /// Precondition: the subdomain is one of this body's.
   [[nodiscard]] SubdomainElements elementsOf(const decomposition::Subdomain& subdomain);
 
-  /// Elements of a structured mesh, region by region; null of another.
+  /// Elements of a structured mesh, region by region; null of another, and where temperatures change.
   [[nodiscard]] const fem::CongruentFluxes* congruentFluxes(GlobalOrdinal region) const {
     return congruent_.empty() ? nullptr : &congruent_[region];
   }
@@ -83,7 +85,7 @@ public:
     const bool looksUp = shape_.empty() || where == Points::inPlace;
     std::vector<Point> points(shape_);
     points.resize(perElement);
-    std::vector<double> values(perElement * components);
+    std::vector<double> values(perElement * components), change;
     for (std::size_t e = 0; e < elements.elements.size(); ++e) {
       const std::span<const int> nodes = elements.numbering->elementNodes(e);
       for (std::size_t i = 0; i < perElement; ++i) {
@@ -93,7 +95,9 @@ public:
         for (std::size_t c = 0; c < components; ++c)
           values[i * components + c] = displacement[node * components + c];
       }
-      action(ElementView{e, elements.regionOf(e), nodes, points, values});
+      if (isHeated_)
+        model_->temperatureChange(elements.elements[e], change);
+      action(ElementView{e, elements.regionOf(e), nodes, points, values, change});
     }
   }
 
@@ -103,8 +107,9 @@ private:
   std::vector<fem::Material> materials_; ///< of each region
   std::vector<Point>
       shape_; ///< corners of every element from the origin on, where all are congruent; else empty
-  std::vector<fem::CongruentFluxes> congruent_; ///< of each region; empty of other meshes
-  std::unique_ptr<fem::BodyModel> model_;       ///< tells regions apart; null where there is but one
+  bool isHeated_;
+  std::vector<fem::CongruentFluxes> congruent_; ///< of each region; empty of other meshes, and heated bodies
+  std::unique_ptr<fem::BodyModel> model_;       ///< knows regions and temperatures; null where there are none
   fem::RecentlyUsed<fem::LocalNumbering> numberings_;
 };
 

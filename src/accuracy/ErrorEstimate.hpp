@@ -18,7 +18,8 @@ namespace epafi::accuracy {
 
 struct ErrorEstimate {
   double discretisation = 0; ///< η
-  double energyNorm = 0;     ///< ‖u_h‖_K
+  /// ‖u_h‖_K; where temperatures change, of the strain that has stress alone, unless that is round-off.
+  double energyNorm = 0;
   /// η² of each element, in the order of Partition::elementsOf, of each of this rank's subdomains.
   std::vector<std::vector<double>> elements;
 
@@ -41,9 +42,13 @@ public:
   /// number of ranks but for round-off. Collective.
   ErrorEstimate operator()(std::span<const Eigen::VectorXd> displacement);
 
+  /// ‖v‖_K of a displacement beside which no temperature changes. Collective.
+  double normOf(std::span<const Eigen::VectorXd> displacement);
+
 private:
   const model::Decomposition& decomposition_;
   std::vector<BodyElements> bodies_;
+  bool isHeated_; ///< whether any temperature changes
 };
 
 } // namespace epafi::accuracy

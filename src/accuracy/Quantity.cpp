@@ -107,7 +107,7 @@ std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& dec
 QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, double norm,
                             std::span<const Eigen::VectorXd> u, std::span<const Eigen::VectorXd> z) {
   QuantityError result;
-  result.dualNorm = estimator(z).energyNorm;
+  result.dualNorm = estimator.normOf(z);
   double t = result.dualNorm > 0 && norm > 0 ? norm / result.dualNorm : 1.0;
   constexpr double most = 1e3; // where z is a rigid motion, without energy but for round-off
   const double largest[] = {largestOf(comm, u), largestOf(comm, z)};

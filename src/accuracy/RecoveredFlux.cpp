@@ -49,7 +49,7 @@ void addElements(const BodyElements& body, const Subdomain& subdomain, const Eig
   Eigen::MatrixXd sampled;
   body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
     fem::sampledFluxes(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
-                       element.displacements, sampled);
+                       element.displacements, sampled, element.temperatureChange);
     const double measure = mesh::measureOf(body.cellType(), element.points);
     sampled *= measure;
     const std::size_t nodes = element.nodes.size();

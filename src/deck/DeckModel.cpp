@@ -6,40 +6,13 @@
 #include <Eigen/Geometry>
 #include <Teuchos_Array.hpp>
 
-#include <algorithm>
 #include <numbers>
-#include <set>
 
 namespace epafi::deck {
 namespace {
 
 using Teuchos::Array;
 using Teuchos::ParameterList;
-
-/// The constants of the one row that there is, or all elements have the temperature of.
-std::vector<double> constantsOf(const ElasticConstants& elastic, const Deck& deck, const Place& place) {
-  std::set<double> temperatures;
-  for (const Temperature& initial : deck.initialTemperatures)
-    temperatures.insert(initial.value);
-  const auto& rows = elastic.rows;
-  if (rows.size() == 1)
-    return rows.front().constants;
-  if (temperatures.size() != 1)
-    throw InputError(text(place) +
-                     ": *ELASTIC: constants for several temperatures need one initial temperature "
-                     "of all nodes here; give those of one temperature");
-  const double at = *temperatures.begin();
-  const auto above =
-      std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.temperature >= at; });
-  if (above == rows.begin() || above == rows.end())
-    return above == rows.end() ? rows.back().constants : rows.front().constants;
-  const auto& below = *(above - 1);
-  const double share = (at - below.temperature) / (above->temperature - below.temperature);
-  std::vector<double> constants(below.constants);
-  for (std::size_t i = 0; i < constants.size(); ++i)
-    constants[i] += share * (above->constants[i] - constants[i]);
-  return constants;
-}
 
 /// First and second local axis of a rectangular system.
 std::vector<double> localAxesOf(const Orientation& orientation) {
@@ -58,18 +31,6 @@ std::vector<double> localAxesOf(const Orientation& orientation) {
   return {axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)};
 }
 
-/// Strain of temperatures is none of what is solved here.
-void requireNoThermalStrain(const Deck& deck) {
-  const bool expands = std::any_of(deck.materials.begin(), deck.materials.end(),
-                                   [](const auto& entry) { return entry.second.expansion.has_value(); });
-  for (const Step& step : deck.steps)
-    for (const Temperature& temperature : step.temperatures)
-      if (expands)
-        throw InputError(text(temperature.place) +
-                         ": *TEMPERATURE: strain of temperatures is not solved here; "
-                         "take the temperatures or the *EXPANSION out");
-}
-
 void refuseUnsolved(const Deck& deck) {
   if (deck.steps.empty())
     throw InputError(deck.file + " has no *STEP; there is nothing to solve");
@@ -85,7 +46,6 @@ void refuseUnsolved(const Deck& deck) {
     if (!step.pairs.empty())
       throw InputError(text(step.pairs.front().place) +
                        ": *MODEL CHANGE: contact pairs that come or go with a step are not solved here");
-  requireNoThermalStrain(deck);
 }
 
 } // namespace
@@ -167,9 +127,10 @@ void ModelMaker::addMaterial(ParameterList& list, const Section& section, bool /
   if (!material.elastic)
     throw InputError(text(material.place) + ": *MATERIAL: " + section.material +
                      " has no *ELASTIC; bodies are linearly elastic here");
-  const std::vector<double> constants = constantsOf(*material.elastic, deck_, material.place);
+  const std::vector<double> constants = constantsOf(material);
   if (bodies_.all().front().type->dimension == 2)
     list.set("Thickness", section.thickness.value_or(1.0));
+  setExpansion(list, material);
   if (material.elastic->kind == ElasticConstants::Kind::isotropic) {
     list.set("Young's Modulus", constants.at(0));
     list.set("Poisson's Ratio", constants.at(1));

@@ -259,6 +259,7 @@ void ModelMaker::addSteps() {
     addForces(k);
     addPressures(k);
     addBodyForces(k);
+    addTemperatures(k);
   }
   if (deck_.steps.size() == 1)
     return;

@@ -22,7 +22,7 @@ public:
 
   /// Materials, sections, and what is reduced.
   void addBodies();
-  /// Supports, forces and pressures, and the steps where there are several.
+  /// Supports, forces, pressures and temperatures, and the steps where there are several.
   void addSteps();
   /// Equations of the deck, and those of nodes that bodies share.
   void addEquations();
@@ -50,6 +50,18 @@ private:
   void addPressures(std::size_t step);
   void addBodyForces(std::size_t step);
   Teuchos::ParameterList& addLoad(int body, std::size_t step, const std::string& kind);
+
+  // ModelTemperatures.cpp
+  using Temperatures = std::map<GlobalOrdinal, double>;
+  [[nodiscard]] Temperatures initialTemperatures() const;
+  /// At the end of a step, of the nodes of which anything is said.
+  [[nodiscard]] Temperatures temperaturesAt(std::size_t step) const;
+  /// Those of elasticity, at the one temperature of all nodes if they depend on it.
+  [[nodiscard]] std::vector<double> constantsOf(const Material& material) const;
+  void setExpansion(Teuchos::ParameterList& list, const Material& material) const;
+  /// Changes of temperature at the nodes of a body that expands.
+  [[nodiscard]] Temperatures changesOf(int body, const Temperatures& initial, const Temperatures& now) const;
+  void addTemperatures(std::size_t step);
 
   // ModelEquations.cpp
   /// Axes of a node's displacements, columns; those of space where nothing transforms it.

@@ -11,7 +11,7 @@ namespace {
 int faceNumber(const Fields& fields, int field) {
   const std::string label = fields.name(field, "a face, S1 ... S6");
   if (label.size() != 2 || label[0] != 'S' || label[1] < '1' || label[1] > '6')
-    fields.refuse("\"" + shortened(label) + "\" should be a face, S1 ... S6");
+    fields.refuse(std::string("\"") + shortened(label) + "\" should be a face, S1 ... S6");
   return label[1] - '0';
 }
 

@@ -71,6 +71,11 @@ public:
   /// Stiffness and load of one element.
   void element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const;
 
+  /// Change of temperature at the nodes of an element; empty of a body of which no temperature changes.
+  void temperatureChange(GlobalOrdinal element, std::vector<double>& change) const {
+    loads_.temperatureChange(body_.mesh, element, change);
+  }
+
   /// What an element is made of.
   [[nodiscard]] const Material& materialOf(GlobalOrdinal element) const {
     return materialIn(body_.solid, regions_.of(body_, element));

@@ -35,7 +35,13 @@ void shareOut(std::span<const double> shares, Physics physics, const Material& m
       load[a * components + i] = thickness * shares[a] * force[i];
 }
 
-/// Of loads; those of stiffnesses are Shape's gaussSamples.
+template <int dim>
+const typename mesh::Shape<dim>::Samples& stiffnessSamples(const mesh::Shape<dim>& shape,
+                                                           Integration integration) {
+  return integration == Integration::reduced ? shape.reducedSamples() : shape.gaussSamples();
+}
+
+/// Of loads.
 template <int dim>
 const typename mesh::Shape<dim>::Samples& loadSamples(const mesh::Shape<dim>& shape,
                                                       Integration integration) {
@@ -50,8 +56,7 @@ GradientProducts<dim> gradientProducts(const mesh::Shape<dim>& shape, std::span<
   const int size = dim * shape.numNodes;
   GradientProducts<dim> products(size, size);
   products.setZero();
-  for (const auto& sample :
-       integration == Integration::reduced ? shape.reducedSamples() : shape.gaussSamples()) {
+  for (const auto& sample : stiffnessSamples(shape, integration)) {
     const mesh::ElementMap map(corners, sample);
     const mesh::NodalColumns<dim> gradients = map.gradients(sample);
     const Eigen::Map<const Eigen::VectorXd> g(gradients.data(), size);
@@ -168,6 +173,28 @@ void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics ph
       radius -= radius.dot(axis) * axis;
       const double weight = factor * sample.weight * mesh::ElementMap(corners, sample).determinant();
       forces += (weight * radius.template head<dim>()).lazyProduct(sample.values.transpose());
+    }
+    load = forces.reshaped();
+  });
+}
+
+void thermalLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
+                 const Material& material, std::span<const double> temperatureChange, Eigen::VectorXd& load,
+                 Integration integration) {
+  assert(fits(type, physics) && physics != Physics::membrane && temperatureChange.size() == points.size());
+  const SymmetricTensor perDegree = stressOf(thermalStrain(physics, material, 1), physics, material);
+  withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
+    const auto corners = mesh::relativeCorners<dim>(points);
+    Eigen::Matrix<double, dim, dim> stress;
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        stress(i, j) = thicknessOf(physics, material) * perDegree[placeInTensor[i][j]];
+    const Eigen::Map<const Eigen::VectorXd> changes(temperatureChange.data(), shape.numNodes);
+    mesh::NodalColumns<dim> forces = mesh::NodalColumns<dim>::Zero(dim, shape.numNodes);
+    for (const auto& sample : stiffnessSamples(shape, integration)) {
+      const mesh::ElementMap map(corners, sample);
+      const double weight = sample.weight * map.determinant() * sample.values.dot(changes);
+      forces += (weight * stress).lazyProduct(map.gradients(sample));
     }
     load = forces.reshaped();
   });

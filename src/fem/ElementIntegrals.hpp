@@ -48,6 +48,12 @@ void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics ph
                   const Material& material, const SolidLoad& rotation, Eigen::VectorXd& load,
                   Integration integration = Integration::full);
 
+/// t∫ε(N_a):C:ε₀ of the strain ε₀ of a change of temperature, by the points of the stiffness. `load` is
+/// overwritten. \param temperatureChange  at each node. Precondition: not a membrane.
+void thermalLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
+                 const Material& material, std::span<const double> temperatureChange, Eigen::VectorXd& load,
+                 Integration integration = Integration::full);
+
 // Loads on one edge of a plane element or one face of a solid one: rows as above, nodes as the facet has
 // them, in an order that makes the normal point outwards, as in Cell.hpp and Surface. Edges go with
 // membranes, plane strain and plane stress, and their points' third coordinate does not matter; faces go with

@@ -24,7 +24,9 @@ struct MembraneLaw {
   using Gradient = Eigen::Matrix<double, components, 2>;
 
   MembraneLaw(Physics /*physics*/, const Material& material) : conductivity(material.conductivity) {}
-  [[nodiscard]] Flux flux(const Gradient& gradient) const { return conductivity * gradient.transpose(); }
+  [[nodiscard]] Flux flux(const Gradient& gradient, double /*temperatureChange*/) const {
+    return conductivity * gradient.transpose();
+  }
   [[nodiscard]] double density(const Flux& q) const { return q.squaredNorm() / conductivity; }
 
   double conductivity;
@@ -45,9 +47,11 @@ struct ElasticLaw {
     elasticity = elasticityIn(physics, material);
     compliance = direct::inverseOfSpd(*material.elasticity);
   }
-  [[nodiscard]] Flux flux(const Gradient& gradient) const {
+  [[nodiscard]] Flux flux(const Gradient& gradient, double temperatureChange) const {
     Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
     whole.template topLeftCorner<components, components>() = gradient;
+    if (temperatureChange != 0)
+      whole -= thermalStrain(physics, material, temperatureChange);
     const SymmetricTensor stress =
         material.elasticity ? stressOf(whole, elasticity) : stressOf(whole, physics, material);
     return Eigen::Map<const Flux>(stress.data());
@@ -79,8 +83,12 @@ NodalDisplacements<Law> atNodes(std::span<const double> displacements) {
 
 template <class Law, int dim>
 typename Law::Flux fluxAt(const Law& law, const mesh::ElementMap<dim>& map,
-                          const mesh::ShapeSample<dim>& sample, std::span<const double> displacements) {
-  return law.flux(derivatives(atNodes<Law>(displacements), sample) * map.jacobian().inverse());
+                          const mesh::ShapeSample<dim>& sample, std::span<const double> displacements,
+                          std::span<const double> temperatureChange = {}) {
+  double change = 0;
+  for (std::size_t a = 0; a < temperatureChange.size(); ++a)
+    change += sample.values[a] * temperatureChange[a];
+  return law.flux(derivatives(atNodes<Law>(displacements), sample) * map.jacobian().inverse(), change);
 }
 
 /// The flux is constant, so that w = q* − q_h is linear: ∫ w:C⁻¹:w = |T|/((d+1)(d+2)) (Σ Q(w_a) + Q(Σ w_a)).
@@ -104,12 +112,13 @@ FluxEnergies simplexEnergies(const Law& law, const mesh::Shape<dim>& shape, std:
 /// By the fine rule: w is of the shape functions' kind, but where the element map is not affine.
 template <class Law, int dim, class Nodal>
 FluxEnergies energiesByRule(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
-                            std::span<const double> displacements, const Nodal& nodalFluxes) {
+                            std::span<const double> displacements, const Nodal& nodalFluxes,
+                            std::span<const double> temperatureChange) {
   const auto corners = mesh::relativeCorners<dim>(points);
   FluxEnergies energies;
   for (const auto& sample : shape.fineSamples()) {
     const mesh::ElementMap map(corners, sample);
-    const typename Law::Flux flux = fluxAt(law, map, sample, displacements);
+    const typename Law::Flux flux = fluxAt(law, map, sample, displacements, temperatureChange);
     const double weight = sample.weight * map.determinant();
     energies.difference += weight * law.density(nodalFluxes.lazyProduct(sample.values) - flux);
     energies.flux += weight * law.density(flux);
@@ -122,10 +131,11 @@ FluxEnergies energiesByRule(const Law& law, const mesh::Shape<dim>& shape, std::
 /// one column. Of simplices of order 2 with straight edges the flux is such a function itself.
 template <class Law, int dim>
 void sampleFlux(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
-                std::span<const double> displacements, Eigen::MatrixXd& fluxes) {
+                std::span<const double> displacements, Eigen::MatrixXd& fluxes,
+                std::span<const double> temperatureChange = {}) {
   const auto corners = mesh::relativeCorners<dim>(points);
   const auto at = [&](const mesh::ShapeSample<dim>& sample) {
-    return fluxAt(law, mesh::ElementMap(corners, sample), sample, displacements);
+    return fluxAt(law, mesh::ElementMap(corners, sample), sample, displacements, temperatureChange);
   };
   if (shape.order == 1) {
     fluxes = at(shape.centreSample());
@@ -250,23 +260,27 @@ int numSampledFluxes(mesh::CellType type) {
 }
 
 void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
-                   const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes) {
+                   const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes,
+                   std::span<const double> temperatureChange) {
   fluxes.resize(numFluxes(physics), numSampledFluxes(type));
-  withLaw(type, physics, material,
-          [&](const auto& shape, const auto& law) { sampleFlux(law, shape, points, displacements, fluxes); });
+  withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
+    sampleFlux(law, shape, points, displacements, fluxes, temperatureChange);
+  });
 }
 
 FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Physics physics,
                           const Material& material, std::span<const double> displacements,
-                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes) {
+                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes,
+                          std::span<const double> temperatureChange) {
   return withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
     using Law = std::decay_t<decltype(law)>;
     assert(nodalFluxes.rows() == Law::numFluxes && nodalFluxes.cols() == shape.numNodes);
     const Eigen::Map<const Eigen::Matrix<double, Law::numFluxes, Eigen::Dynamic>, 0, Eigen::OuterStride<>>
         fluxes(nodalFluxes.data(), Law::numFluxes, nodalFluxes.cols(),
                Eigen::OuterStride<>(nodalFluxes.outerStride()));
-    return shape.isSimplex && shape.order == 1 ? simplexEnergies(law, shape, points, displacements, fluxes)
-                                               : energiesByRule(law, shape, points, displacements, fluxes);
+    return shape.isSimplex && shape.order == 1 && temperatureChange.empty()
+               ? simplexEnergies(law, shape, points, displacements, fluxes)
+               : energiesByRule(law, shape, points, displacements, fluxes, temperatureChange);
   });
 }
 

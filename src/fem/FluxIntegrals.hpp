@@ -27,8 +27,10 @@ int numSampledFluxes(mesh::CellType type);
 /// the centre, taken as constant; of order 2 values at the nodes, of bricks carried on from the points where
 /// the flux is most accurate.
 /// \param fluxes  numFluxes × numSampledFluxes, overwritten, and resized if need be
+/// \param temperatureChange  at the nodes; its strain has no stress. Empty: none
 void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
-                   const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes);
+                   const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes,
+                   std::span<const double> temperatureChange = {});
 
 /// ∫ q:C⁻¹:q, the energy norm squared of the displacement that has the flux q; for membranes ∫ |q|²/κ.
 struct FluxEnergies {
@@ -37,13 +39,14 @@ struct FluxEnergies {
 };
 
 /// Exact on elements with straight edges (bricks: parallelepipeds). \param nodalFluxes q* at the nodes,
-/// numFluxes × nodes
+/// numFluxes × nodes \param temperatureChange  as of sampledFluxes
 FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Physics physics,
                           const Material& material, std::span<const double> displacements,
-                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes);
+                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes,
+                          std::span<const double> temperatureChange = {});
 
-/// sampledFluxes and fluxEnergies of many congruent elements of one material at once, as products of
-/// matrices; a column an element.
+/// sampledFluxes and fluxEnergies of many congruent elements of one material at once, whose temperature does
+/// not change, as products of matrices; a column an element.
 class CongruentFluxes {
 public:
   /// \param points  nodes of one of them. Precondition: it is a quadrilateral or hexahedron whose
@@ -78,11 +81,11 @@ struct DisplacementNorms {
 /// A displacement and its flux at a point.
 struct FieldValue {
   std::array<double, 3> displacement{}; ///< as many components as the physics has
-  std::array<double, 6> flux{};         ///< numFluxes(physics) of them
+  std::array<double, 6> flux{};         ///< numFluxes(physics) of them, as if no temperature changed
 };
 
-/// Norms of u_h − u, u given at points; by a rule that is exact for polynomials of degree 5 (of degree 3 on
-/// tetrahedra) of each coordinate, on elements of any form.
+/// Norms of u_h − u, u given at points, whatever the temperatures are; by a rule that is exact for
+/// polynomials of degree 5 (of degree 3 on tetrahedra) of each coordinate, on elements of any form.
 DisplacementNorms differenceNorms(mesh::CellType type, std::span<const Point> points, Physics physics,
                                   const Material& material, std::span<const double> displacements,
                                   const std::function<FieldValue(const Point&)>& exact);

@@ -101,6 +101,11 @@ SymmetricTensor stressOf(const Eigen::Matrix3d& displacementGradient, const Elas
   return stress;
 }
 
+Eigen::Matrix3d thermalStrain(Physics physics, const Material& material, double temperatureChange) {
+  const double strain = material.expansion * temperatureChange;
+  return Eigen::Vector3d(strain, strain, physics == Physics::planeStress ? 0 : strain).asDiagonal();
+}
+
 double vonMisesOf(const SymmetricTensor& stress) {
   const auto& [xx, yy, zz, xy, yz, zx] = stress;
   const double a = xx - yy, b = yy - zz, c = zz - xx;

@@ -58,6 +58,11 @@ SymmetricTensor stressOf(const Eigen::Matrix3d& displacementGradient, Physics ph
 /// The same with C of the physics.
 SymmetricTensor stressOf(const Eigen::Matrix3d& displacementGradient, const ElasticityMatrix& elasticity);
 
+/// The strain of a change of temperature that nothing hinders, as a displacement's gradient without which the
+/// law holds: of plane stress, where what is across the plane has no stress, in the plane alone.
+/// Precondition: not a membrane.
+Eigen::Matrix3d thermalStrain(Physics physics, const Material& material, double temperatureChange);
+
 /// √(3/2 s:s) with the stress deviator s; 0 if the stress is the same in all directions.
 double vonMisesOf(const SymmetricTensor& stress);
 

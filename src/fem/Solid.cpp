@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <utility>
 
 namespace epafi::fem {
@@ -51,6 +52,12 @@ Eigen::Matrix3d axesAt(const LocalAxes& axes, const Point& point) {
     result << first, third.cross(first), third;
   }
   return result;
+}
+
+bool isHeated(const Solid& body) {
+  return std::any_of(body.loads.begin(), body.loads.end(), [](const SolidLoad& load) {
+    return load.kind == SolidLoad::Kind::temperature && load.value[0] != 0;
+  });
 }
 
 SolidLoad loadInside(std::string name, const mesh::Box& box, double value) {

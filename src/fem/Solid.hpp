@@ -40,6 +40,7 @@ struct Material {
   double youngsModulus = 1;   ///< E > 0, force per area
   double poissonsRatio = 0.3; ///< ν, −1 < ν < ½
   double thickness = 1;       ///< of plane bodies
+  double expansion = 0;       ///< α of elastic bodies: strain, the same in all directions, per degree
   /// Of a body that is not isotropic, instead of E and ν.
   std::optional<ElasticityMatrix> elasticity = std::nullopt;
 };
@@ -84,7 +85,8 @@ struct SolidLoad {
     traction, ///< force per area on a surface
     pressure, ///< force per area against a surface's outward normal; value[0]
     point,    ///< force at the node that lies at a point, or at each node of a surface or set of nodes
-    rotation  ///< force per volume away from an axis, in the elements of a group: value[0] times the distance
+    rotation, ///< force per volume away from an axis, in the elements of a group: value[0] times the distance
+    temperature ///< change by value[0] at each node of a surface or set of nodes, or of the whole body
   };
   std::string name;
   Kind kind = Kind::body;
@@ -108,6 +110,9 @@ struct Solid {
   std::vector<SolidLoad> loads;
   bool reducedIntegration = false; ///< of elements by Shape's reducedSamples
 };
+
+/// Whether its temperature changes anywhere.
+bool isHeated(const Solid& body);
 
 /// A membrane's load per area on exactly what lies in a box.
 SolidLoad loadInside(std::string name, const mesh::Box& box, double value);

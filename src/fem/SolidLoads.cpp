@@ -69,11 +69,13 @@ std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const SolidLoad& load
 
 } // namespace
 
-SolidLoads::SolidLoads(const SolidBody& body, const SolidRegions& regions) {
+SolidLoads::SolidLoads(const SolidBody& body, const SolidRegions& regions) : isHeated_(isHeated(body.solid)) {
   for (const SolidLoad& load : body.solid.loads) {
     using Kind = SolidLoad::Kind;
     if (load.kind == Kind::point)
       addPoint(body, load);
+    else if (load.kind == Kind::temperature)
+      addTemperature(body, load);
     else if (load.kind != Kind::body && load.kind != Kind::rotation)
       addSurface(body, regions, load);
     else if (!load.wholeElements && body.isCongruent())
@@ -125,6 +127,16 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions, 
   }
 }
 
+void SolidLoads::addTemperature(const SolidBody& body, const SolidLoad& load) {
+  if (body.components() == 1)
+    throw body.refusal("load '" + load.name + "' is a temperature, by which a membrane does not expand");
+  if (load.where.empty())
+    heatedBy_ += load.value[0];
+  else
+    for (const GlobalOrdinal node : body.nodesOf("load '" + load.name + "'", load.where))
+      heated_[node] += load.value[0];
+}
+
 void SolidLoads::addPoint(const SolidBody& body, const SolidLoad& load) {
   if (!load.where.empty())
     for (const GlobalOrdinal node : body.nodesOf("load '" + load.name + "'", load.where))
@@ -146,6 +158,8 @@ void SolidLoads::of(const SolidBody& body, const SolidRegions& regions,
   if (!gridForces_.empty())
     addGridForces(body, regions, elements, loads);
   addBodyForces(body, regions, elements, loads);
+  if (isHeated_)
+    addThermalLoads(body, regions, elements, loads);
   if (!forces_.empty())
     addNodalForces(body.mesh, components, elements, loads);
 }
@@ -202,6 +216,33 @@ void SolidLoads::addBodyForces(const SolidBody& body, const SolidRegions& region
       }
       loads.col(e) += values;
     });
+}
+
+void SolidLoads::temperatureChange(const mesh::Mesh& mesh, GlobalOrdinal element,
+                                   std::vector<double>& change) const {
+  change.clear();
+  if (!isHeated_)
+    return;
+  for (const GlobalOrdinal node : mesh::ElementNodes(mesh, element)) {
+    const auto own = heated_.find(node);
+    change.push_back(heatedBy_ + (own == heated_.end() ? 0 : own->second));
+  }
+}
+
+void SolidLoads::addThermalLoads(const SolidBody& body, const SolidRegions& regions,
+                                 std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
+  std::vector<GlobalOrdinal> region(elements.size());
+  regions.of(body, elements, region);
+  std::vector<Point> points;
+  std::vector<double> change;
+  Eigen::VectorXd values;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    body.cornersOf(elements[e], points);
+    temperatureChange(body.mesh, elements[e], change);
+    thermalLoad(body.mesh.cellType(), points, body.solid.physics, materialIn(body.solid, region[e]), change,
+                values, integrationOf(body.solid));
+    loads.col(e) += values;
+  }
 }
 
 void SolidLoads::addNodalForces(const mesh::Mesh& mesh, int components,

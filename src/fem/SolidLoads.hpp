@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,9 @@ public:
   /// Adds nothing: `loads` is overwritten, one column an element, rows node by node.
   void of(const SolidBody& body, const SolidRegions& regions, std::span<const GlobalOrdinal> elements,
           Eigen::MatrixXd& loads) const;
+
+  /// Change of temperature at the nodes of an element; empty of a body of which no temperature changes.
+  void temperatureChange(const mesh::Mesh& mesh, GlobalOrdinal element, std::vector<double>& change) const;
 
 private:
   /// A force at a node, carried by one of its elements.
@@ -43,18 +47,24 @@ private:
 
   void addGridForce(const SolidBody& body, const SolidLoad& load);
   void addSurface(const SolidBody& body, const SolidRegions& regions, const SolidLoad& load);
+  void addTemperature(const SolidBody& body, const SolidLoad& load);
   void addPoint(const SolidBody& body, const SolidLoad& load);
   void addForceAt(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force);
   void addGridForces(const SolidBody& body, const SolidRegions& regions,
                      std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
   void addBodyForces(const SolidBody& body, const SolidRegions& regions,
                      std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
+  void addThermalLoads(const SolidBody& body, const SolidRegions& regions,
+                       std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
   void addNodalForces(const mesh::Mesh& mesh, int components, std::span<const GlobalOrdinal> elements,
                       Eigen::MatrixXd& loads) const;
 
   std::vector<GridForce> gridForces_;
   std::vector<BodyForce> bodyForces_;
   std::vector<NodalForce> forces_; ///< ascending by element
+  bool isHeated_;
+  double heatedBy_ = 0;                    ///< the change of temperature of the whole body
+  std::map<GlobalOrdinal, double> heated_; ///< what nodes have beside it
 };
 
 } // namespace epafi::fem

@@ -250,7 +250,8 @@ void readPlace(const ListReader& list, const Body& body, fem::SolidLoad& load) {
     list.require("Point", " of a load of the kind \"point\" without a \"Surface\"");
     load.point = list.vector("Point", dimensionOf(body));
   } else {
-    list.require("Surface");
+    if (load.kind != Kind::temperature)
+      list.require("Surface");
     load.where = list.word("Surface");
   }
 }
@@ -261,7 +262,8 @@ fem::SolidLoad::Kind kindOf(const std::string& word) {
          : word == "traction" ? Kind::traction
          : word == "pressure" ? Kind::pressure
          : word == "rotation" ? Kind::rotation
-                              : Kind::point;
+         : word == "point"    ? Kind::point
+                              : Kind::temperature;
 }
 
 std::vector<fem::SolidLoad> readLoads(const ListReader& list, const Body& body) {
@@ -277,9 +279,11 @@ std::vector<fem::SolidLoad> readLoads(const ListReader& list, const Body& body) 
       entry.refuseValue("Kind", "membranes carry no pressure on their edges; give a traction");
     if (load.kind == fem::SolidLoad::Kind::rotation && !isElastic(body))
       entry.refuseValue("Kind", "membranes do not turn");
+    if (load.kind == fem::SolidLoad::Kind::temperature && !isElastic(body))
+      entry.refuseValue("Kind", "membranes do not expand");
     readPlace(entry, body, load);
     if (!isElastic(body) || load.kind == fem::SolidLoad::Kind::pressure ||
-        load.kind == fem::SolidLoad::Kind::rotation) {
+        load.kind == fem::SolidLoad::Kind::rotation || load.kind == fem::SolidLoad::Kind::temperature) {
       entry.refuseGiven({"Force"}, "a load of this kind is a number, its \"Value\"");
       entry.require("Value");
       load.value[0] = entry.real("Value");

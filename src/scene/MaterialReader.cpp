@@ -57,7 +57,7 @@ fem::Material readMaterial(const ListReader& list, fem::Physics physics, const f
       value = list.positive(name);
   };
   if (physics == fem::Physics::membrane) {
-    list.refuseGiven({"Young's Modulus", "Poisson's Ratio", "Thickness", "Elasticity", "Axes"},
+    list.refuseGiven({"Young's Modulus", "Poisson's Ratio", "Thickness", "Expansion", "Elasticity", "Axes"},
                      "membranes have none; remove it");
     take("Conductivity", material.conductivity);
     return material;
@@ -67,6 +67,8 @@ fem::Material readMaterial(const ListReader& list, fem::Physics physics, const f
   if (physics == fem::Physics::elasticity3d)
     list.refuseGiven({"Thickness"}, useless);
   take("Thickness", material.thickness);
+  if (list.has("Expansion"))
+    material.expansion = list.real("Expansion");
   if (list.hasEntries("Elasticity")) {
     material.elasticity = elasticityIn(list);
     return material;

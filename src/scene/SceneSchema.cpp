@@ -48,6 +48,9 @@ void describeMaterial(ParameterList& list, const std::string& of) {
            "");
   addReal(list, "Thickness", material.thickness, "Plane strain and plane stress: thickness " + of + '.', 0.0,
           infinity, true);
+  addReal(list, "Expansion", material.expansion,
+          "Elastic bodies: α " + of +
+              ", strain in all directions per degree, for loads of the kind temperature.");
 }
 
 void describeMesh(ParameterList& list) {
@@ -135,16 +138,19 @@ void describeSupports(ParameterList& body) {
 }
 
 void describeLoads(ParameterList& body) {
-  ParameterList& load = body.sublist("Loads", false, "Forces on the body; loads add up.")
-                            .sublist("<load>", false, "One load, constant in space.");
+  ParameterList& load =
+      body.sublist("Loads", false, "Forces on the body, and changes of its temperature; loads add up.")
+          .sublist("<load>", false, "One load, constant in space.");
   addChoice(
       load, "Kind", "body",
       "body: force per volume (per area of a membrane) in the elements of a box or group; traction: force "
       "per area on a surface (per length on a membrane's); pressure: force per area against a surface's "
       "outward normal; point: force at a node, or at each of a group; rotation: force per volume away from "
       "an "
-      "axis, Value times the distance, in the elements of a group: ρω² of a body that turns.",
-      {"body", "traction", "pressure", "point", "rotation"});
+      "axis, Value times the distance, in the elements of a group: ρω² of a body that turns; temperature: "
+      "its change, by which the body expands, "
+      "at each node of a group or of the whole body.",
+      {"body", "traction", "pressure", "point", "rotation", "temperature"});
   addArray(load, "Box", Array<double>(),
            "Kind body: extent {x0, x1, y0, y1}, in space {x0, x1, y0, y1, z0, z1}, of what carries the load: "
            "that part of a "
@@ -154,7 +160,8 @@ void describeLoads(ParameterList& body) {
   load.set("Surface", "",
            "Kinds traction and pressure, required: the loaded surface. Kind point: a surface, or a group of "
            "points "
-           "or curves, at each of whose nodes the force is.");
+           "or curves, at each of whose nodes the force is. Kind temperature: likewise the nodes that become "
+           "warmer; without it all.");
   addArray(
       load, "Point", Array<double>(),
       "Kind point, unless there is a Surface: where the node lies, {x, y} or {x, y, z}. Kind rotation: a "
@@ -164,9 +171,11 @@ void describeLoads(ParameterList& body) {
   addReal(
       load, "Value", 0.0,
       "Membranes, required: force, positive upwards. Kind pressure, required: the pressure. Kind rotation, "
-      "required: force per volume and distance.");
+      "required: force per volume and distance. Kind temperature, required: the change in degrees.");
   addArray(load, "Force", Array<double>(),
-           "Elastic bodies, required but for pressure: components {x, y} or {x, y, z} of the force.", "");
+           "Elastic bodies, required but for pressure, rotation and temperature: components {x, y} or {x, y, "
+           "z} of the force.",
+           "");
 }
 
 void describeBody(ParameterList& bodies) {

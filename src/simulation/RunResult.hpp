@@ -63,8 +63,9 @@ struct TargetResult {
 /// What a load step has come to.
 struct StepResult {
   std::string name;
-  int multiplications = 0;                                ///< products with F
-  double strainEnergy = 0, loadWork = 0, dissipation = 0; ///< ½uᵀKu, fᵀu, and what friction took in the step
+  int multiplications = 0; ///< products with F
+  /// ½uᵀKu, fᵀu (f with the forces of hindered expansion), and what friction took in the step.
+  double strainEnergy = 0, loadWork = 0, dissipation = 0;
   std::vector<ContactResult> contacts;
   RunStatus status = RunStatus::notConverged;
   std::string reason; ///< one sentence

@@ -9,19 +9,6 @@ using namespace epafi;
 using namespace epafi::test;
 using Teuchos::ParameterList;
 
-/// A cube of 2×2×2 elements on a rigid floor.
-ParameterList cubeOnFloor() {
-  ParameterList list("Epafi");
-  ParameterList& cube = bodyOf(list, "cube");
-  cube.set("Physics", "elasticity 3-D").set("Box", numbers({0, 1, 0, 1, 0, 1}));
-  cube.set("Elements", counts({2, 2, 2})).set("Young's Modulus", 200.0).set("Poisson's Ratio", 0.3);
-  list.sublist("Obstacles").sublist("floor").set("Kind", "plane").set("Point", numbers({0, 0, 0}));
-  list.sublist("Obstacles").sublist("floor").set("Normal", numbers({0, 0, 2}));
-  ParameterList& pair = list.sublist("Contact").sublist("rest");
-  pair.set("First Body", "cube").set("First Surface", "bottom").set("Obstacle", "floor");
-  return list;
-}
-
 template <class Change>
 std::string refusalOf(const Change& change) {
   ParameterList list = cubeOnFloor();
@@ -267,6 +254,41 @@ TEST(SolidReaderTest, ReadsAxesOfSupports) {
   support.remove("Cylinder");
   support.set("Axes", numbers({1, 0, 0, -2, 0, 0}));
   EXPECT_NE(refusal([&] { solidOf(list); }).find("that is one direction"), std::string::npos);
+}
+
+TEST(SolidReaderTest, ReadsTemperaturesOfAllNodesOrOfASurface) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& cube = bodyOf(list, "cube");
+  cube.set("Expansion", 1.2e-5);
+  ParameterList& loads = cube.sublist("Loads");
+  loads.sublist("warm").set("Kind", "temperature").set("Value", 80.0);
+  loads.sublist("cold").set("Kind", "temperature").set("Value", -5.0).set("Surface", "top");
+  const scene::Body read = solidOf(list);
+  EXPECT_EQ(read.material.expansion, 1.2e-5);
+  ASSERT_EQ(read.loads.size(), 2u);
+  for (const fem::SolidLoad& load : read.loads)
+    EXPECT_EQ(load.kind, fem::SolidLoad::Kind::temperature);
+  EXPECT_EQ(read.loads[0].where, "");
+  EXPECT_EQ(read.loads[0].value[0], 80);
+  EXPECT_EQ(read.loads[1].where, "top");
+  loads.sublist("cold").set("Force", numbers({1, 0, 0}));
+  expectSays(refusal([&] { solidOf(list); }), {"Loads/cold", "\"Force\"", "\"Value\""});
+}
+
+TEST(SolidReaderTest, AMembraneDoesNotExpand) {
+  const auto refused = [](const std::function<void(ParameterList&)>& change) {
+    ParameterList list;
+    ParameterList& body = bodyOf(list, "skin");
+    body.set("Mesh", "skin.msh");
+    change(body);
+    return refusal([&] { scene::readScene(list, "scenes/a.xml"); });
+  };
+  expectSays(refused([](ParameterList& body) { body.set("Expansion", 1e-5); }),
+             {"\"Expansion\"", "membranes have none"});
+  expectSays(refused([](ParameterList& body) {
+               body.sublist("Loads").sublist("warm").set("Kind", "temperature").set("Value", 1.0);
+             }),
+             {"\"Kind\"", "membranes do not expand"});
 }
 
 TEST(SolidReaderTest, ARegionKeepsWhatItDoesNotChange) {
