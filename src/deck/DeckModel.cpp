@@ -130,6 +130,8 @@ void ModelMaker::addBodies() {
     model_.nodeNumbers.push_back(body.nodes);
     model_.elementNumbers.push_back(body.elements);
     list.set("Inner Nodes", "none");
+    if (isOfRevolution(*body.type))
+      list.set("Axis", "free"); // what is to be held the deck says
     if (body.type->isReduced)
       list.set("Integration", "reduced");
     std::map<int, Numbers> elementsOf; // by section
@@ -155,7 +157,8 @@ void ModelMaker::addMaterial(ParameterList& list, const Section& section, bool /
     throw InputError(text(material.place) + ": *MATERIAL: " + section.material +
                      " has no *ELASTIC; bodies are linearly elastic here");
   const std::vector<double> constants = constantsOf(*material.elastic, deck_, material.place);
-  if (bodies_.all().front().type->dimension == 2)
+  const ElementForm& type = *bodies_.all().front().type;
+  if (type.dimension == 2 && !isOfRevolution(type))
     list.set("Thickness", section.thickness.value_or(1.0));
   if (material.elastic->kind == ElasticConstants::Kind::isotropic) {
     list.set("Young's Modulus", constants.at(0));
