@@ -139,10 +139,12 @@ void expectConstantStress(const scene::Scene& scene, const Kind& kind, Below bel
   const std::vector<double> forces = run.forces(), &areas = run.decomposition.contacts[0].areas;
   ASSERT_EQ(forces.size(), areas.size());
   ASSERT_GT(forces.size(), 1U);
-  EXPECT_EQ(run.solution.activeContactNodes, static_cast<GlobalOrdinal>(forces.size()));
+  const auto without = std::count_if(areas.begin(), areas.end(), [](double a) { return a < 1e-12; });
+  EXPECT_LE(without, kind.physics == Physics::axisymmetric ? 1 : 0); // on the axis no force, and no gap
+  EXPECT_GE(run.solution.activeContactNodes, std::ssize(forces) - without);
   EXPECT_NEAR(run.solution.contactForce, pressure * area, patchAccuracy * pressure * std::max(1.0, area));
   for (std::size_t row = 0; row < forces.size(); ++row)
-    if (areas[row] > 1e-12) // a node on the axis may have none
+    if (areas[row] > 1e-12)
       EXPECT_NEAR(forces[row] / areas[row], pressure, patchAccuracy * pressure) << row;
     else
       EXPECT_NEAR(forces[row], 0, patchAccuracy * pressure) << row;
@@ -155,7 +157,8 @@ TEST_P(PatchTest, StressIsConstantHoweverTheBlocksAreCut) {
   const MeshFolder folder;
   scene::Scene scene = stack(kind, Below::block, folder);
   std::vector<scene::Decomposition> cuts;
-  if (kind.source == Source::structured && !isSimplex(kind.cell) && kind.lowerElements == 0)
+  if (kind.source == Source::structured && !isSimplex(kind.cell) && kind.lowerElements == 0 &&
+      !kind.isSerendipity)
     cuts = {cutInGrid({1, 1, 1}), cutInGrid({2, 3, 1}), cutInGrid({2, 2, kind.dimension() == 3 ? 3 : 1})};
   const bool isTurned =
       kind.placement().shift.norm() > 0; // a few parts have nodes with axes of their own between them
