@@ -44,4 +44,17 @@ std::string sceneRefusal(const Change& change) {
   return refusal([&] { scene::readScene(list, "a.xml"); });
 }
 
+/// A cube of 2×2×2 elements on a rigid floor.
+inline Teuchos::ParameterList cubeOnFloor() {
+  Teuchos::ParameterList list("Epafi");
+  Teuchos::ParameterList& cube = bodyOf(list, "cube");
+  cube.set("Physics", "elasticity 3-D").set("Box", numbers({0, 1, 0, 1, 0, 1}));
+  cube.set("Elements", counts({2, 2, 2})).set("Young's Modulus", 200.0).set("Poisson's Ratio", 0.3);
+  list.sublist("Obstacles").sublist("floor").set("Kind", "plane").set("Point", numbers({0, 0, 0}));
+  list.sublist("Obstacles").sublist("floor").set("Normal", numbers({0, 0, 2}));
+  Teuchos::ParameterList& pair = list.sublist("Contact").sublist("rest");
+  pair.set("First Body", "cube").set("First Surface", "bottom").set("Obstacle", "floor");
+  return list;
+}
+
 } // namespace epafi::test

@@ -9,19 +9,6 @@ using namespace epafi;
 using namespace epafi::test;
 using Teuchos::ParameterList;
 
-/// A cube of 2×2×2 elements on a rigid floor.
-ParameterList cubeOnFloor() {
-  ParameterList list("Epafi");
-  ParameterList& cube = bodyOf(list, "cube");
-  cube.set("Physics", "elasticity 3-D").set("Box", numbers({0, 1, 0, 1, 0, 1}));
-  cube.set("Elements", counts({2, 2, 2})).set("Young's Modulus", 200.0).set("Poisson's Ratio", 0.3);
-  list.sublist("Obstacles").sublist("floor").set("Kind", "plane").set("Point", numbers({0, 0, 0}));
-  list.sublist("Obstacles").sublist("floor").set("Normal", numbers({0, 0, 2}));
-  ParameterList& pair = list.sublist("Contact").sublist("rest");
-  pair.set("First Body", "cube").set("First Surface", "bottom").set("Obstacle", "floor");
-  return list;
-}
-
 template <class Change>
 std::string refusalOf(const Change& change) {
   ParameterList list = cubeOnFloor();
