@@ -22,7 +22,7 @@ std::vector<fem::Material> materialsOf(const scene::Body& body) {
 
 BodyElements::BodyElements(const scene::Body& body, const model::BodyLayout& layout)
     : layout_(layout), physics_(body.physics), materials_(materialsOf(body)),
-      shape_(mesh::congruentShape(*layout.mesh)), isHeated_(fem::isHeated(body)),
+      shape_(fem::sharedShape(body.physics, *layout.mesh)), isHeated_(fem::isHeated(body)),
       model_(materials_.size() > 1 || isHeated_ ? model::makeModel(body, *layout.mesh) : nullptr),
       numberings_(maxNumberings, maxNumbers) {
   if (!shape_.empty() && !isHeated_)

@@ -20,7 +20,8 @@ struct Weight {
   double value;
 };
 
-std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std::string& name) {
+std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std::string& name,
+                                       bool isOfRevolution) {
   const std::vector<std::string> names = body.mesh->surfaceNames();
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw InputError("body '" + body.name + "' has no surface '" + name + "' to average a displacement over");
@@ -32,7 +33,10 @@ std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std:
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
     body.mesh->pointsAt(nodes, points);
-    mesh::nodalShares(surface.facetType, points, shares);
+    if (isOfRevolution)
+      mesh::revolvedShares(surface.facetType, points, shares);
+    else
+      mesh::nodalShares(surface.facetType, points, shares);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       weights.push_back({surface.elements[f], nodes[a], shares[a]});
       area += shares[a];
@@ -80,7 +84,9 @@ std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& dec
                                                  const DisplacementTerms& terms) {
   const model::BodyLayout& body = decomposition.bodies[terms.body];
   const std::vector<Weight> weights =
-      terms.surface.empty() ? weightsAtPoint(body, terms.point) : weightsOverSurface(body, terms.surface);
+      terms.surface.empty()
+          ? weightsAtPoint(body, terms.point)
+          : weightsOverSurface(body, terms.surface, decomposition.problem.bodies[terms.body].isOfRevolution);
   const Eigen::Index components = decomposition.problem.components;
   const Eigen::VectorXd direction = components == 1
                                         ? Eigen::VectorXd::Ones(1)

@@ -63,7 +63,7 @@ struct ContactLayout {
   std::vector<std::vector<SymmetryPlane>> symmetryPlanes;
   std::vector<double> gaps; ///< before supports are taken into account
   /// Share of the first surface on which a row's force acts; in the plane of its length, times the thickness
-  /// of the thinner body.
+  /// of the thinner body or, of solids of revolution, 2πr.
   std::vector<double> areas;
   /// Of areas what each of the united contacts has; empty: there is one alone.
   std::vector<std::vector<double>> areasOfParts;

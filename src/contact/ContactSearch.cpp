@@ -45,6 +45,14 @@ void requireRows(const ContactTerms& contact, const ContactLayout& layout) {
                                     : "' faces a node of the other side; check which surfaces are to meet"));
 }
 
+/// Whether no force acts on a row that is a spring: middles carry all near the axis of a solid of revolution.
+bool isSpringless(const ContactTerms& contact, const RowAreas& areas, const SurfaceNodes& first,
+                  std::size_t i) {
+  constexpr double roundOff = 1e-9;
+  return contact.isOfRevolution && contact.givesWay &&
+         areas.of(i) <= roundOff * first.spacings[i] * first.spacings[i];
+}
+
 } // namespace
 
 ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& first, const Obstacle& obstacle) {
@@ -64,7 +72,7 @@ ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& firs
     if (direction.norm() < 0.5) // a node in the centre of a sphere has no nearest point
       throw refusal(contact, "the node at " + text(first.points[i]) +
                                  " lies in the centre of the obstacle; move the obstacle");
-    if (first.normals[i].dot(direction) <= 0)
+    if (first.normals[i].dot(direction) <= 0 || isSpringless(contact, areas, first, i))
       continue;
     layout.firstNodes.push_back(first.nodes[i]);
     addRow(direction, contact.gapOf(gap), contact.dimension, layout);
@@ -89,7 +97,7 @@ ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first
       areasOf(contact, first, [&](std::size_t f, std::size_t) { return pairs.isCommon[f] != 0; });
   for (std::size_t i = 0; i < pairs.partner.size(); ++i) {
     const std::size_t j = pairs.partner[i];
-    if (j == FacingNodes::alone)
+    if (j == FacingNodes::alone || isSpringless(contact, areas, first, i))
       continue;
     Vector3d normal(contact.sense, 0, 0);
     if (contact.components > 1) {

@@ -29,7 +29,9 @@ struct ContactTerms {
   std::vector<double> thicknesses{};
   /// Of each facet of the first surface to which of the united contacts it belongs; empty: there is one.
   std::vector<std::size_t> parts{};
-  double sense = 1; ///< of a deflection: −1 if it is the second body that must stay below
+  bool isOfRevolution = false; ///< about the y-axis: areas are those of the whole circumference
+  bool givesWay = false;       ///< rows are springs by their areas, of which there is none without area
+  double sense = 1;            ///< of a deflection: −1 if it is the second body that must stay below
   /// Gaps of geometry up to this, overlaps too, count as none: surfaces that are meant to touch there.
   double adjust = -std::numeric_limits<double>::infinity();
 

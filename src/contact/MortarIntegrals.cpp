@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <unordered_map>
 #include <utility>
 
@@ -21,8 +22,8 @@ constexpr int beyond = 6;
 class Integrator {
 public:
   Integrator(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second)
-      : dimension_(terms.dimension), surface_(first.surface), cover_(terms, first, second),
-        allowed_(first.surface.numFacets(), 0.0) {}
+      : dimension_(terms.dimension), isOfRevolution_(terms.isOfRevolution), surface_(first.surface),
+        cover_(terms, first, second), allowed_(first.surface.numFacets(), 0.0) {}
 
   std::vector<MortarFacet> integrate();
 
@@ -34,7 +35,13 @@ private:
            MortarFacet& facet, Eigen::MatrixXd& coupling) const;
   [[nodiscard]] bool reaches(const Common& common, const Vector2d& point, double margin) const;
 
+  /// 2πr of a solid of revolution, else 1. \param values  of the shape functions
+  [[nodiscard]] double around(const FacetView& facet, const FacetValues& values) const {
+    return isOfRevolution_ ? 2 * std::numbers::pi * facet.points().row(0).dot(values) : 1;
+  }
+
   int dimension_;
+  bool isOfRevolution_;
   const mesh::Surface& surface_; ///< the first one
   CoveringFacets cover_;
   /// Of each facet of the first surface how deep it may lie in the other body, if that is more than facets
@@ -54,7 +61,8 @@ bool Integrator::reaches(const Common& common, const Vector2d& point, double mar
 void Integrator::add(const FacetView& own, const FacetView& other, const ViewPlane& plane,
                      const Common& common, MortarFacet& facet, Eigen::MatrixXd& coupling) const {
   const bool isPolynomial = own.isAffine() && other.isAffine();
-  const int degree = own.degree() + std::max(own.degree(), other.degree()) + (isPolynomial ? 0 : beyond);
+  const int degree = own.degree() + std::max(own.degree(), other.degree()) + (isPolynomial ? 0 : beyond) +
+                     (isOfRevolution_ ? own.degree() : 0);
   const std::vector<SimplexPoint>& rule = simplexRule(dimension_ - 1, degree);
   for (const Polygon& piece : common.pieces)
     for (std::size_t corner = 1; corner + 1 < std::max<std::size_t>(piece.size(), 3); ++corner) {
@@ -66,7 +74,7 @@ void Integrator::add(const FacetView& own, const FacetView& other, const ViewPla
         const auto here = own.at(seen, plane), there = other.at(seen, plane);
         if (!here || !there)
           cover_.refuseFold(here ? other : own);
-        const double weight = point.weight * size * here->slope;
+        const double weight = point.weight * size * here->slope * around(own, here->values);
         facet.area += weight;
         facet.shares += weight * here->values;
         facet.mass.noalias() += (weight * here->values) * here->values.transpose();
@@ -80,7 +88,7 @@ MortarFacet Integrator::integrateOver(std::size_t f) {
   const Eigen::Index n = own.points().cols();
   const ViewPlane plane = cover_.viewPlane(f);
   MortarFacet facet{f,
-                    own.area(),
+                    own.area() * (isOfRevolution_ ? 2 * std::numbers::pi * own.centre()[0] : 1),
                     0,
                     1,
                     0,

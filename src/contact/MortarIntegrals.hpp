@@ -21,6 +21,7 @@
 namespace epafi::contact {
 
 /// The integrals over one facet of the first surface, as far as the second covers it; N its shape functions.
+/// Of solids of revolution 2πr is part of all of them.
 struct MortarFacet {
   std::size_t facet = 0;  ///< of the first surface
   double whole = 0;       ///< area of all of it

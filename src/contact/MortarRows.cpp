@@ -40,7 +40,8 @@ struct MortarRow {
 class RowMaker {
 public:
   RowMaker(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second)
-      : first_(first), second_(second), nodes_(surfaceNodes(first.pointAt, first.surface)),
+      : first_(first), second_(second),
+        nodes_(surfaceNodes(first.pointAt, first.surface, 0, terms.isOfRevolution)),
         basis_(dualBasis(first.surface.facetType)), facets_(mortarIntegrals(terms, first, second)),
         multiplierNodes_(nodes_, basis_, facets_) {
     isBent_ = faceOtherSide(facets_, nodes_);

@@ -35,8 +35,10 @@ MultiplierNodes::MultiplierNodes(const SurfaceNodes& nodes, const Eigen::MatrixX
     addTo(f, VectorXd::Map(nodes.facets[f].shares.data(), basis.rows()), whole);
   for (const MortarFacet& facet : facets)
     addTo(facet.facet, facet.shares, covered);
+  // Of edges of order 2 that begin on the axis of a solid of revolution the first function has no integral.
+  const double roundOff = 1e-12 * *std::max_element(whole.begin(), whole.end());
   for (std::size_t k = 0; k < covered.size(); ++k)
-    coverage_.push_back(covered[k] / whole[k]);
+    coverage_.push_back(whole[k] > roundOff ? covered[k] / whole[k] : 0);
 }
 
 std::vector<std::size_t> MultiplierNodes::representatives(const std::function<bool(std::size_t)>& isHeld,

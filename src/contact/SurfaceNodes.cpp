@@ -98,7 +98,8 @@ void addTo(std::vector<Eigen::Vector3d>& faces, const Eigen::Vector3d& normal) {
 
 } // namespace
 
-SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surface, int order) {
+SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surface, int order,
+                          bool isOfRevolution) {
   const bool complete = order > orderOf(surface.facetType);
   const mesh::CellType facetType = complete ? withOrder(surface.facetType, order) : surface.facetType;
   std::map<GlobalOrdinal, std::size_t> placeOf;
@@ -124,9 +125,11 @@ SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surfac
     mesh::nodalNormals(facetType, points, normals);
     mesh::nodalShares(facetType, points, areas);
     auto& facet = result.facets.emplace_back();
-    facet.shares = areas;
     facet.normal = mesh::areaVector(facetType, points).normalized();
     const double even = std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
+    if (isOfRevolution)
+      mesh::revolvedShares(facetType, points, areas);
+    facet.shares = areas;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const std::size_t place = placeOf.at(nodes[a]);
       facet.nodes.push_back(place);

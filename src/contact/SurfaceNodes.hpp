@@ -22,8 +22,8 @@ struct SurfaceNodes {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d>
       normals; ///< outwards, of length 1: the mean of the facets' normals there by area
-  /// ∫N_a: what of the area (in the plane: length) a node has, so that an even pressure p gives forces p ·
-  /// area
+  /// ∫N_a: what of the area (in the plane: length; of solids of revolution ∫2πr N_a) a node has, so that an
+  /// even pressure p gives forces p · area
   std::vector<double> areas;
   std::vector<double> spacings; ///< of the nodes around each
   /// What a facet has to do with its nodes.
@@ -44,6 +44,8 @@ constexpr double sharpBend = 0.86602540378443865;
 
 /// \param order  2: of facets of order 1 also the points where those of order 2 would have nodes, between the
 /// corners, with numbers beyond those of the surface; 0: that of the surface
-SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surface, int order = 0);
+/// \param isOfRevolution  about the y-axis: areas are those of the whole circumference
+SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surface, int order = 0,
+                          bool isOfRevolution = false);
 
 } // namespace epafi::contact

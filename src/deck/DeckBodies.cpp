@@ -48,9 +48,9 @@ DeckBodies::DeckBodies(const Deck& deck) {
   for (int b = 0; b < std::ssize(bodies_); ++b) {
     bodies_[b].name = "body " + std::to_string(b + 1);
     if (bodies_[b].type->physics != bodies_.front().type->physics)
-      throw InputError(text(bodies_[b].place) + ": *ELEMENT: elements of " + bodies_[b].type->physics +
-                       " cannot go with those of " + bodies_.front().type->physics +
-                       " in one deck; model all bodies alike");
+      throw InputError(text(bodies_[b].place) + ": *ELEMENT: elements " + bodies_[b].type->name + " (" +
+                       bodies_[b].type->physics + ") cannot go with " + bodies_.front().type->name + " (" +
+                       bodies_.front().type->physics + ") in one deck; model all bodies alike");
     for (const GlobalOrdinal node : bodies_[b].nodes)
       bodiesOfNode_[node].push_back(b);
   }

@@ -33,8 +33,8 @@ const std::map<std::string, ElementForm>& types() {
         {"C3D8", {"elasticity 3-D", 3, 5, 3, false, inOrder(8), ofHexahedron}},
         {"C3D20", {"elasticity 3-D", 3, 17, 3, false, places20, ofHexahedron}},
         {"C3D20R", {"elasticity 3-D", 3, 17, 3, true, places20, ofHexahedron}}};
-    for (const auto& [letters, physics] :
-         {std::pair("CPE", "plane strain"), std::pair("CPS", "plane stress")}) {
+    for (const auto& [letters, physics] : {std::pair("CPE", "plane strain"), std::pair("CPS", "plane stress"),
+                                           std::pair("CAX", "axisymmetric")}) {
       const std::string name(letters);
       known[name + "3"] = {physics, 2, 2, 1, false, inOrder(3), ofTriangle};
       known[name + "6"] = {physics, 2, 9, 1, false, inOrder(6), ofTriangle};
@@ -42,6 +42,8 @@ const std::map<std::string, ElementForm>& types() {
       known[name + "8"] = {physics, 2, 16, 1, false, inOrder(8), ofQuadrilateral};
       known[name + "8R"] = {physics, 2, 16, 1, true, inOrder(8), ofQuadrilateral};
     }
+    for (auto& [name, form] : known)
+      form.name = name;
     return known;
   }();
   return all;
@@ -54,7 +56,7 @@ const ElementForm& formOf(const Elements& elements) {
   if (found == types().end())
     throw InputError(text(elements.place) + ": *ELEMENT: elements of the type " + elements.type +
                      " are not solved here; solids are meshed in C3D4, C3D8, C3D10, C3D20 or C3D20R, plane "
-                     "bodies in CPE or CPS elements of 3, 4, 6 or 8 nodes");
+                     "bodies in CPE or CPS, solids of revolution in CAX elements of 3, 4, 6 or 8 nodes");
   return found->second;
 }
 

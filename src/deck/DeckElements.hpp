@@ -20,7 +20,13 @@ struct ElementForm {
   std::vector<int> places;
   /// Corners of each face, those of S1 first, as places among the deck's nodes.
   std::vector<std::vector<int>> faces;
+  std::string name{}; ///< such as C3D20R
 };
+
+/// Whether it is that of solids of revolution about the y-axis.
+inline bool isOfRevolution(const ElementForm& form) {
+  return form.physics == "axisymmetric";
+}
 
 /// \throws InputError with the place of the type's first card if Epafi has no such element
 const ElementForm& formOf(const Elements& elements);

@@ -40,8 +40,9 @@ void refuseUnsolved(const Deck& deck) {
         ": *PRE-TENSION SECTION: bolts are not tightened here yet; give the section's ends forces");
   for (const Step& step : deck.steps)
     if (step.isPerturbation && deck.steps.size() > 1)
-      throw InputError(text(step.place) + ": *STEP: a step of PERTURBATION among others is not solved here; make it "
-                                          "a deck of its own");
+      throw InputError(text(step.place) +
+                       ": *STEP: a step of PERTURBATION among others is not solved here; make it "
+                       "a deck of its own");
   for (const Step& step : deck.steps)
     if (!step.pairs.empty())
       throw InputError(text(step.pairs.front().place) +
@@ -98,6 +99,8 @@ void ModelMaker::addBodies() {
     model_.nodeNumbers.push_back(body.nodes);
     model_.elementNumbers.push_back(body.elements);
     list.set("Inner Nodes", "none");
+    if (isOfRevolution(*body.type))
+      list.set("Axis", "free"); // what is to be held the deck says
     if (body.type->isReduced && body.elements.size() > 1)
       list.set("Integration", "reduced");
     else if (body.type->isReduced)
@@ -128,7 +131,8 @@ void ModelMaker::addMaterial(ParameterList& list, const Section& section, bool /
     throw InputError(text(material.place) + ": *MATERIAL: " + section.material +
                      " has no *ELASTIC; bodies are linearly elastic here");
   const std::vector<double> constants = constantsOf(material);
-  if (bodies_.all().front().type->dimension == 2)
+  const ElementForm& type = *bodies_.all().front().type;
+  if (type.dimension == 2 && !isOfRevolution(type))
     list.set("Thickness", section.thickness.value_or(1.0));
   setExpansion(list, material);
   if (material.elastic->kind == ElasticConstants::Kind::isotropic) {

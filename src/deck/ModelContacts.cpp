@@ -38,9 +38,10 @@ std::vector<Face> ModelMaker::facesAt(const Surface& surface, const std::string&
         bare.erase(node);
     }
   if (!bare.empty())
-    throw InputError(text(surface.place) + ": *SURFACE: node " + std::to_string(*bare.begin()) + " of " + name +
-                     " belongs to no face of an element that has all its corners in it; define the surface by "
-                     "the elements' faces");
+    throw InputError(
+        text(surface.place) + ": *SURFACE: node " + std::to_string(*bare.begin()) + " of " + name +
+        " belongs to no face of an element that has all its corners in it; define the surface by "
+        "the elements' faces");
   std::sort(faces.begin(), faces.end());
   return faces;
 }
@@ -124,8 +125,9 @@ void ModelMaker::addContactPair(const ContactPair& pair) {
       list.set("Adjust", pair.adjust.value_or(whatever));
   }
   if (!pair.adjustSet.empty() && !hasNodesOf(pair.adjustSet, pair.dependent))
-    throw InputError(text(pair.place) + ": *CONTACT PAIR: ADJUST with a part of the nodes is not solved here; "
-                                        "give the gap up to which nodes are to be adjusted");
+    throw InputError(text(pair.place) +
+                     ": *CONTACT PAIR: ADJUST with a part of the nodes is not solved here; "
+                     "give the gap up to which nodes are to be adjusted");
 }
 
 void ModelMaker::addContacts() {

@@ -232,7 +232,8 @@ void ModelMaker::addBodyForces(std::size_t step) {
       refuse(card->place, "*DLOAD: " + card->label + " needs the *DENSITY of the material " +
                               deck_.sections[section].material);
     const double size = *material.density * card->values.at(0) * factorAt(card->amplitude, card->delay, step);
-    const int dimension = bodies_.all()[body].type->dimension;
+    const ElementForm& type = *bodies_.all()[body].type;
+    const int dimension = type.dimension;
     ParameterList& load = addLoad(body, step, card->label == "GRAV" ? "body" : "rotation");
     if (elements != bodies_.all()[body].elements)
       load.set("Group",
@@ -241,10 +242,17 @@ void ModelMaker::addBodyForces(std::size_t step) {
       return Eigen::Vector3d(card->values.at(first), card->values.at(first + 1), card->values.at(first + 2));
     };
     if (card->label == "GRAV") {
+      if (isOfRevolution(type) && (vector(1).x() != 0 || vector(1).z() != 0))
+        refuse(card->place, "*DLOAD: GRAV: solids of revolution are pulled along their axis, y, alone");
       load.set("Force", firstOf(size * vector(1).normalized(), dimension));
       continue;
     }
     load.set("Value", size);
+    if (isOfRevolution(type)) {
+      if (vector(1).x() != 0 || vector(1).z() != 0 || vector(4).x() != 0 || vector(4).z() != 0)
+        refuse(card->place, "*DLOAD: CENTRIF: solids of revolution turn about their axis, y");
+      continue;
+    }
     load.set("Point", firstOf(vector(1), dimension));
     if (dimension == 3)
       load.set("Axis", firstOf(vector(4), 3));

@@ -41,7 +41,7 @@ std::vector<RigidModes> rigidModesOf(const Substructures& all) {
       centre[d] = 0.5 * (low + high);
       size = std::max(size, 0.5 * (high - low));
     }
-    modes.emplace_back(all.components, centre, size > 0 ? size : 1.0);
+    modes.emplace_back(all.components, centre, size > 0 ? size : 1.0, all.bodies[b].isOfRevolution);
   }
   return modes;
 }

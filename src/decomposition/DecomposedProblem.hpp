@@ -114,6 +114,7 @@ struct Body {
   /// What the modes are in space, for errors that say how a body can move; most often there where a body with
   /// several unknowns a node floats. No number comes from it.
   std::optional<RigidMotions> motions = std::nullopt;
+  bool isOfRevolution = false; ///< about the y-axis, along which alone it moves rigidly
 };
 
 /// Subdomains of one body that share crosspoints (Clusters.hpp): all of them, if nothing else is asked for.

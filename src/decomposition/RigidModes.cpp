@@ -42,6 +42,10 @@ private:
 
 Eigen::VectorXd RigidModes::at(const Point& point, int component) const {
   Eigen::VectorXd modes = Eigen::VectorXd::Zero(number());
+  if (isOfRevolution_) {
+    modes[0] = component == 1 ? 1 : 0;
+    return modes;
+  }
   modes[component] = 1;
   const auto x = [&](std::size_t d) { return (point[d] - centre_[d]) / size_; };
   if (components_ == 2)
@@ -80,7 +84,9 @@ FreeModes RigidModes::freeOf(std::span<const HeldDirection> held) const {
 
 Eigen::MatrixXd RigidModes::twists() const {
   Eigen::MatrixXd twists = Eigen::MatrixXd::Zero(6, number());
-  if (components_ == 2) {
+  if (isOfRevolution_) {
+    twists(1, 0) = 1;
+  } else if (components_ == 2) {
     twists(0, 0) = twists(1, 1) = 1;
     twists(5, 2) = 1 / size_;
   } else if (components_ == 3) {

@@ -25,7 +25,8 @@ struct FreeModes {
 };
 
 /// Rigid motions of a body, about its centre, rotations scaled by its size so that all are of one magnitude:
-/// 1 of a scalar field, 3 in the plane (x, y, rotation), 6 in space (x, y, z, rotations about x, y, z).
+/// 1 of a scalar field, 3 in the plane (x, y, rotation), 6 in space (x, y, z, rotations about x, y, z); of a
+/// solid of revolution about the y-axis 1, along it.
 class RigidModes {
 public:
   /// A motion is free if it moves the held points, in the root mean square, by less than this share of
@@ -34,10 +35,12 @@ public:
   static constexpr double freeUpTo = 1e-9, heldFrom = 1e-6;
 
   /// \param components  unknowns a node: 1, 2 or 3
-  RigidModes(int components, const Point& centre, double size)
-      : components_(components), centre_(centre), size_(size) {}
+  RigidModes(int components, const Point& centre, double size, bool isOfRevolution = false)
+      : components_(components), isOfRevolution_(isOfRevolution), centre_(centre), size_(size) {}
 
-  [[nodiscard]] int number() const { return components_ == 1 ? 1 : components_ == 2 ? 3 : 6; }
+  [[nodiscard]] int number() const {
+    return components_ == 1 || isOfRevolution_ ? 1 : components_ == 2 ? 3 : 6;
+  }
   /// Displacement of a point in one component by each mode.
   [[nodiscard]] Eigen::VectorXd at(const Point& point, int component) const;
   /// The same along a direction.
@@ -53,6 +56,7 @@ public:
 
 private:
   int components_;
+  bool isOfRevolution_;
   Point centre_;
   double size_;
 };

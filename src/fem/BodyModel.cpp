@@ -21,7 +21,17 @@ void requireDimension(const SolidBody& body) {
   if (isPlane != (dimensionOf(body.mesh.cellType()) == 2))
     throw body.refusal("its physics is " + toString(body.solid.physics) + ", but its mesh consists of " +
                        toString(body.mesh.cellType()) + "s; choose " +
-                       (isPlane ? "elasticity 3-D" : "membrane, plane strain or plane stress"));
+                       (isPlane ? "elasticity 3-D" : "membrane, plane strain, plane stress or axisymmetric"));
+}
+
+/// x is the radius of solids of revolution. \throws InputError if it is negative somewhere
+void requireRadii(const SolidBody& body) {
+  if (body.solid.physics != Physics::axisymmetric)
+    return;
+  const double least = body.box()[0][0];
+  if (least < -body.axisTolerance())
+    throw body.refusal("it is axisymmetric, so that x is the distance from its axis, but it reaches to x = " +
+                       text(least) + "; mesh the half of its section with x >= 0 alone");
 }
 
 /// Elements joined in facets move as one rigid body; those joined in less may turn about each other, which
@@ -49,8 +59,9 @@ void requireJoined(const SolidBody& body) {
   if (isMembrane)
     throw body.refusal(counts + "; make each part a body of its own, or join the parts in the mesh");
   throw body.refusal(counts + " in whole " + (dimensionOf(mesh.cellType()) == 2 ? "edges" : "faces") +
-                     "; the others hang on nodes, or on nothing, and could turn: a mechanism. Make each part "
-                     "a body of its own, or join the parts in the mesh");
+                     "; the others hang on nodes, or on nothing" +
+                     (body.solid.physics == Physics::axisymmetric ? "" : ", and could turn: a mechanism") +
+                     ". Make each part a body of its own, or join the parts in the mesh");
 }
 
 /// Of other elements motions without energy would go on from element to element.
@@ -70,6 +81,7 @@ void requireIntegration(const SolidBody& body) {
 
 SolidBody checked(SolidBody body) {
   requireDimension(body);
+  requireRadii(body);
   requireIntegration(body);
   requireJoined(body);
   return body;
@@ -90,21 +102,14 @@ Eigen::Matrix4d rectangleStiffness(double hx, double hy) {
 
 /// About the middle of the body's bounding box.
 RigidModes rigidModesOf(const SolidBody& body) {
-  const mesh::Mesh& mesh = body.mesh;
-  std::vector<Point> points; // of a structured mesh the first and the last will do
-  if (mesh.part() != nullptr)
-    points.assign(mesh.part()->box().begin(), mesh.part()->box().end());
-  else
-    for (GlobalOrdinal node = 0; node < mesh.numNodes(); node += body.isCongruent() ? mesh.numNodes() - 1 : 1)
-      points.push_back(mesh.point(node));
-  const auto [lower, upper] = mesh::boxOf(points);
+  const auto [lower, upper] = body.box();
   Point centre{};
   double size = 0;
   for (std::size_t d = 0; d < 3; ++d) {
     centre[d] = 0.5 * (lower[d] + upper[d]);
     size = std::max(size, upper[d] - lower[d]);
   }
-  return {body.components(), centre, 0.5 * size};
+  return {body.components(), centre, 0.5 * size, body.solid.physics == Physics::axisymmetric};
 }
 
 } // namespace

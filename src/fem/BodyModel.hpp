@@ -43,6 +43,8 @@ public:
   [[nodiscard]] double kernelValue(GlobalOrdinal node, int component, int mode) const;
   /// The rigid motions as motions in space; nothing of a scalar field.
   [[nodiscard]] std::optional<decomposition::RigidMotions> rigidMotions() const;
+  /// Whether it is one about the y-axis, along which alone it moves rigidly.
+  [[nodiscard]] bool isOfRevolution() const { return body_.solid.physics == Physics::axisymmetric; }
   /// The node's frame, a rotation whose columns are the axes of its unknowns, or null where these are those
   /// of space. In the plane it turns about z.
   [[nodiscard]] const Eigen::Matrix3d* frame(GlobalOrdinal node) const { return supports_.frame(node); }

@@ -1,10 +1,12 @@
 #include "epafi/fem/ElementIntegrals.hpp"
 
+#include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/mesh/ElementMap.hpp"
 #include "epafi/mesh/ShapeFunctions.hpp"
 
 #include <array>
 #include <cassert>
+#include <numbers>
 
 namespace epafi::fem {
 namespace {
@@ -24,6 +26,11 @@ using GradientProducts =
   return dimensionOf(facet) + 1 == dimensionOf(physics);
 }
 
+/// What a volume or area is multiplied with at a point: 2πr of a solid of revolution.
+double factorAt(Physics physics, std::span<const Point> points, const mesh::NodalValues& values) {
+  return physics == Physics::axisymmetric ? mesh::circumferenceAt(points, values) : 1;
+}
+
 /// Load of a constant force of which each node bears its share.
 void shareOut(std::span<const double> shares, Physics physics, const Material& material, const Vector3& force,
               Eigen::VectorXd& load) {
@@ -35,17 +42,24 @@ void shareOut(std::span<const double> shares, Physics physics, const Material& m
       load[a * components + i] = thickness * shares[a] * force[i];
 }
 
+/// Of stiffnesses; of triangles of order 1 of a solid of revolution more than the one point of the plane, in
+/// which a turn about it would cost no energy.
 template <int dim>
-const typename mesh::Shape<dim>::Samples& stiffnessSamples(const mesh::Shape<dim>& shape,
+const typename mesh::Shape<dim>::Samples& stiffnessSamples(const mesh::Shape<dim>& shape, Physics physics,
                                                            Integration integration) {
-  return integration == Integration::reduced ? shape.reducedSamples() : shape.gaussSamples();
+  if (integration == Integration::reduced)
+    return shape.reducedSamples();
+  return physics == Physics::axisymmetric && shape.gaussSamples().size() == 1 ? shape.revolvedSamples()
+                                                                              : shape.gaussSamples();
 }
 
 /// Of loads.
 template <int dim>
-const typename mesh::Shape<dim>::Samples& loadSamples(const mesh::Shape<dim>& shape,
+const typename mesh::Shape<dim>::Samples& loadSamples(const mesh::Shape<dim>& shape, Physics physics,
                                                       Integration integration) {
-  return integration == Integration::reduced ? shape.reducedSamples() : shape.fineSamples();
+  return integration == Integration::reduced ? shape.reducedSamples()
+         : physics == Physics::axisymmetric  ? shape.revolvedSamples()
+                                             : shape.fineSamples();
 }
 
 /// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its blocks on the diagonal and above.
@@ -56,7 +70,7 @@ GradientProducts<dim> gradientProducts(const mesh::Shape<dim>& shape, std::span<
   const int size = dim * shape.numNodes;
   GradientProducts<dim> products(size, size);
   products.setZero();
-  for (const auto& sample : stiffnessSamples(shape, integration)) {
+  for (const auto& sample : stiffnessSamples(shape, Physics::elasticity3d, integration)) {
     const mesh::ElementMap map(corners, sample);
     const mesh::NodalColumns<dim> gradients = map.gradients(sample);
     const Eigen::Map<const Eigen::VectorXd> g(gradients.data(), size);
@@ -119,11 +133,37 @@ void anisotropicStiffness(const GradientProducts<dim>& products, const Elasticit
     }
 }
 
+/// ∫2πr BᵀCB with ε = Bu, ε in the order rr, yy, hoop, ry.
+void revolvedStiffness(const mesh::Shape<2>& shape, std::span<const Point> points, const Material& material,
+                       Integration integration, Eigen::MatrixXd& stiffness) {
+  const auto corners = mesh::relativeCorners<2>(points);
+  const Eigen::Matrix4d elasticity = wholeElasticity(material).topLeftCorner<4, 4>();
+  stiffness.setZero(2 * shape.numNodes, 2 * shape.numNodes);
+  Eigen::Matrix4Xd strain = Eigen::Matrix4Xd::Zero(4, stiffness.cols());
+  for (const auto& sample : stiffnessSamples(shape, Physics::axisymmetric, integration)) {
+    const mesh::ElementMap map(corners, sample);
+    const mesh::NodalColumns<2> gradients = map.gradients(sample);
+    const double around = mesh::circumferenceAt(points, sample.values);
+    for (Eigen::Index a = 0; a < shape.numNodes; ++a) {
+      strain(0, 2 * a) = strain(3, 2 * a + 1) = gradients(0, a);
+      strain(1, 2 * a + 1) = strain(3, 2 * a) = gradients(1, a);
+      strain(2, 2 * a) = 2 * std::numbers::pi * sample.values[a] / around;
+    }
+    stiffness.noalias() +=
+        (sample.weight * around * map.determinant()) * strain.transpose() * elasticity * strain;
+  }
+}
+
 } // namespace
 
 void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
                       const Material& material, Eigen::MatrixXd& stiffness, Integration integration) {
   assert(fits(type, physics));
+  if (physics == Physics::axisymmetric) {
+    revolvedStiffness(mesh::referenceShape<2>(type), points, material, integration, stiffness);
+    mirror(stiffness);
+    return;
+  }
   withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
     const GradientProducts<dim> products = gradientProducts(shape, points, integration);
     const int size = physics == Physics::membrane ? shape.numNodes : dim * shape.numNodes;
@@ -149,8 +189,10 @@ void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics p
   withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
     const auto corners = mesh::relativeCorners<dim>(points);
     mesh::NodalValues integrals = mesh::NodalValues::Zero(shape.numNodes); // ∫N_a
-    for (const auto& sample : loadSamples(shape, integration))
-      integrals += (sample.weight * mesh::ElementMap(corners, sample).determinant()) * sample.values;
+    for (const auto& sample : loadSamples(shape, physics, integration))
+      integrals += (factorAt(physics, points, sample.values) * sample.weight *
+                    mesh::ElementMap(corners, sample).determinant()) *
+                   sample.values;
     shareOut({integrals.data(), points.size()}, physics, material, force, load);
   });
 }
@@ -167,11 +209,12 @@ void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics ph
     const Eigen::Vector3d axis = Eigen::Map<const Eigen::Vector3d>(rotation.axis.data()).normalized();
     const double factor = rotation.value[0] * thicknessOf(physics, material);
     mesh::NodalColumns<dim> forces = mesh::NodalColumns<dim>::Zero(dim, shape.numNodes);
-    for (const auto& sample : loadSamples(shape, integration)) {
+    for (const auto& sample : loadSamples(shape, physics, integration)) {
       Eigen::Vector3d radius = first;
       radius.template head<dim>() += corners.lazyProduct(sample.values);
       radius -= radius.dot(axis) * axis;
-      const double weight = factor * sample.weight * mesh::ElementMap(corners, sample).determinant();
+      const double weight = factor * factorAt(physics, points, sample.values) * sample.weight *
+                            mesh::ElementMap(corners, sample).determinant();
       forces += (weight * radius.template head<dim>()).lazyProduct(sample.values.transpose());
     }
     load = forces.reshaped();
@@ -191,10 +234,13 @@ void thermalLoad(mesh::CellType type, std::span<const Point> points, Physics phy
         stress(i, j) = thicknessOf(physics, material) * perDegree[placeInTensor[i][j]];
     const Eigen::Map<const Eigen::VectorXd> changes(temperatureChange.data(), shape.numNodes);
     mesh::NodalColumns<dim> forces = mesh::NodalColumns<dim>::Zero(dim, shape.numNodes);
-    for (const auto& sample : stiffnessSamples(shape, integration)) {
+    for (const auto& sample : stiffnessSamples(shape, physics, integration)) {
       const mesh::ElementMap map(corners, sample);
       const double weight = sample.weight * map.determinant() * sample.values.dot(changes);
-      forces += (weight * stress).lazyProduct(map.gradients(sample));
+      forces +=
+          (factorAt(physics, points, sample.values) * weight * stress).lazyProduct(map.gradients(sample));
+      if (physics == Physics::axisymmetric) // the hoop strain u_r/r
+        forces.row(0) += (2 * std::numbers::pi * weight * perDegree[2]) * sample.values.transpose();
     }
     load = forces.reshaped();
   });
@@ -207,8 +253,10 @@ void tractionLoad(mesh::CellType facet, std::span<const Point> points, Physics p
   withFacetShape(facet, [&]<int dim>(const mesh::Shape<dim>& shape) {
     const auto corners = mesh::relativeCorners<dim + 1>(points);
     mesh::NodalValues shares = mesh::NodalValues::Zero(shape.numNodes);
-    for (const auto& sample : loadSamples(shape, integration))
-      shares += (sample.weight * facetNormal(corners, sample).norm()) * sample.values;
+    for (const auto& sample : loadSamples(shape, physics, integration))
+      shares +=
+          (factorAt(physics, points, sample.values) * sample.weight * facetNormal(corners, sample).norm()) *
+          sample.values;
     shareOut({shares.data(), points.size()}, physics, material, traction, load);
   });
 }
@@ -220,9 +268,10 @@ void pressureLoad(mesh::CellType facet, std::span<const Point> points, Physics p
     const auto corners = mesh::relativeCorners<dim + 1>(points);
     mesh::NodalColumns<dim + 1> forces = mesh::NodalColumns<dim + 1>::Zero(dim + 1, shape.numNodes);
     const double factor = -pressure * thicknessOf(physics, material);
-    for (const auto& sample : loadSamples(shape, integration))
+    for (const auto& sample : loadSamples(shape, physics, integration))
       forces +=
-          (factor * sample.weight * facetNormal(corners, sample)).lazyProduct(sample.values.transpose());
+          (factor * factorAt(physics, points, sample.values) * sample.weight * facetNormal(corners, sample))
+              .lazyProduct(sample.values.transpose());
     load = forces.reshaped();
   });
 }

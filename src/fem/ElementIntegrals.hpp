@@ -3,7 +3,8 @@
 /// Stiffness and loads of one element of a body, and loads on its facets. Rows are node by node: node ×
 /// components + component, with one component for membranes and as many as the element has dimensions
 /// otherwise. Preconditions of those of elements: points are the element's nodes in the order of Cell.hpp;
-/// plane elements go with membranes, plane strain and plane stress, solid ones with elasticity in space;
+/// plane elements go with all but elasticity in space, solid ones with that; points are where they are of
+/// solids of revolution, else up to a shift;
 /// their leastJacobian (ElementGeometry.hpp) is positive. Nothing is allocated if the result has its size
 /// already; calls from several threads do not disturb each other.
 
@@ -29,8 +30,9 @@ inline Integration integrationOf(const Solid& body) {
   return body.reducedIntegration ? Integration::reduced : Integration::full;
 }
 
-/// ∫κ∇N_a·∇N_b of a membrane, t∫ε(N_a):σ(N_b) of an elastic body of thickness t (1 in space). Symmetric to
-/// the last bit. `stiffness` is overwritten, and resized if need be.
+/// ∫κ∇N_a·∇N_b of a membrane, t∫ε(N_a):σ(N_b) of an elastic body of thickness t (1 in space; here and below
+/// 2πr under the integral of solids of revolution, r = x, which also have ε_zz = u_x/r). Symmetric to the
+/// last bit. `stiffness` is overwritten, and resized if need be.
 void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
                       const Material& material, Eigen::MatrixXd& stiffness,
                       Integration integration = Integration::full);
@@ -43,7 +45,7 @@ void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics p
 
 /// t∫N_a q r of a force per volume that grows with the distance r from an axis: q = value[0] of a load of the
 /// kind rotation, r(x) from its axis to x, perpendicular to it. `load` is overwritten. Precondition: not a
-/// membrane; in the plane the axis is perpendicular to it.
+/// membrane; in the plane the axis is perpendicular to it, of solids of revolution it is the y-axis.
 void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
                   const Material& material, const SolidLoad& rotation, Eigen::VectorXd& load,
                   Integration integration = Integration::full);
@@ -56,8 +58,7 @@ void thermalLoad(mesh::CellType type, std::span<const Point> points, Physics phy
 
 // Loads on one edge of a plane element or one face of a solid one: rows as above, nodes as the facet has
 // them, in an order that makes the normal point outwards, as in Cell.hpp and Surface. Edges go with
-// membranes, plane strain and plane stress, and their points' third coordinate does not matter; faces go with
-// elasticity in space.
+// all but elasticity in space, and their points' third coordinate does not matter; faces go with that.
 
 /// t∫N_a q of a constant force q per area, t the thickness (1 in space); of a membrane ∫N_a q₀, q₀ per
 /// length. Exact on edges and plane faces. `load` is overwritten.

@@ -3,12 +3,14 @@
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/HookesLaw.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/mesh/ElementMap.hpp"
 #include "epafi/mesh/ShapeFunctions.hpp"
 
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 #include <vector>
 
@@ -23,9 +25,16 @@ struct MembraneLaw {
   using Flux = Eigen::Matrix<double, numFluxes, 1>;
   using Gradient = Eigen::Matrix<double, components, 2>;
 
-  MembraneLaw(Physics /*physics*/, const Material& material) : conductivity(material.conductivity) {}
-  [[nodiscard]] Flux flux(const Gradient& gradient, double /*temperatureChange*/) const {
+  MembraneLaw(Physics /*physics*/, const Material& material, std::span<const Point> /*points*/)
+      : conductivity(material.conductivity) {}
+  template <class Sample, class Nodal>
+  [[nodiscard]] Flux flux(const Gradient& gradient, const Sample& /*sample*/, const Nodal& /*nodal*/,
+                          double /*temperatureChange*/) const {
     return conductivity * gradient.transpose();
+  }
+  template <class Sample>
+  [[nodiscard]] double around(const Sample& /*sample*/) const {
+    return 1;
   }
   [[nodiscard]] double density(const Flux& q) const { return q.squaredNorm() / conductivity; }
 
@@ -33,23 +42,33 @@ struct MembraneLaw {
 };
 
 /// Stress of an elastic body. For plane strain the stress across the plane is part of the sum, with which the
-/// law of space holds; for plane stress it is 0.
+/// law of space holds; for plane stress it is 0. Solids of revolution have a hoop strain across it.
 template <int dim>
 struct ElasticLaw {
   static constexpr int numFluxes = numStresses, components = dim;
   using Flux = Eigen::Matrix<double, numFluxes, 1>;
   using Gradient = Eigen::Matrix<double, components, dim>;
 
-  ElasticLaw(Physics bodyPhysics, const Material& bodyMaterial)
-      : physics(bodyPhysics), material(bodyMaterial), thickness(thicknessOf(bodyPhysics, bodyMaterial)) {
+  ElasticLaw(Physics bodyPhysics, const Material& bodyMaterial, std::span<const Point> itsPoints)
+      : physics(bodyPhysics), material(bodyMaterial), thickness(thicknessOf(bodyPhysics, bodyMaterial)),
+        points(itsPoints) {
     if (!material.elasticity)
       return;
     elasticity = elasticityIn(physics, material);
     compliance = direct::inverseOfSpd(*material.elasticity);
   }
-  [[nodiscard]] Flux flux(const Gradient& gradient, double temperatureChange) const {
+  /// \param nodal  displacements, a column a node
+  template <class Nodal>
+  [[nodiscard]] Flux flux(const Gradient& gradient, const mesh::ShapeSample<dim>& sample,
+                          const Nodal& nodal) const {
     Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
     whole.template topLeftCorner<components, components>() = gradient;
+    if (isOfRevolution()) { // on the axis u_r/r is ∂u_r/∂r
+      const double circumference = around(sample), onAxis = 1e-9 * mesh::diameterOf(points);
+      whole(2, 2) = circumference > onAxis
+                        ? 2 * std::numbers::pi * nodal.row(0).dot(sample.values) / circumference
+                        : gradient(0, 0);
+    }
     if (temperatureChange != 0)
       whole -= thermalStrain(physics, material, temperatureChange);
     const SymmetricTensor stress =
@@ -66,9 +85,16 @@ struct ElasticLaw {
     return thickness * ((1 + ratio) * square - ratio * trace * trace) / material.youngsModulus;
   }
 
+  [[nodiscard]] bool isOfRevolution() const { return physics == Physics::axisymmetric; }
+  /// What a volume is multiplied with.
+  [[nodiscard]] double around(const mesh::ShapeSample<dim>& sample) const {
+    return isOfRevolution() ? mesh::circumferenceAt(points, sample.values) : 1;
+  }
+
   Physics physics;
   const Material& material;
   double thickness;
+  std::span<const Point> points;
   ElasticityMatrix elasticity, compliance; ///< of what is not isotropic
 };
 
@@ -88,7 +114,8 @@ typename Law::Flux fluxAt(const Law& law, const mesh::ElementMap<dim>& map,
   double change = 0;
   for (std::size_t a = 0; a < temperatureChange.size(); ++a)
     change += sample.values[a] * temperatureChange[a];
-  return law.flux(derivatives(atNodes<Law>(displacements), sample) * map.jacobian().inverse(), change);
+  const NodalDisplacements<Law> nodal = atNodes<Law>(displacements);
+  return law.flux(derivatives(nodal, sample) * map.jacobian().inverse(), sample, nodal, change);
 }
 
 /// The flux is constant, so that w = q* − q_h is linear: ∫ w:C⁻¹:w = |T|/((d+1)(d+2)) (Σ Q(w_a) + Q(Σ w_a)).
@@ -109,17 +136,19 @@ FluxEnergies simplexEnergies(const Law& law, const mesh::Shape<dim>& shape, std:
   return {measure * (sum + law.density(total)) / ((dim + 1) * (dim + 2)), measure * law.density(flux)};
 }
 
-/// By the fine rule: w is of the shape functions' kind, but where the element map is not affine.
+/// By the fine rule: w is of the shape functions' kind, but where the element map is not affine, and but for
+/// hoop strains.
 template <class Law, int dim, class Nodal>
-FluxEnergies energiesByRule(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
-                            std::span<const double> displacements, const Nodal& nodalFluxes,
-                            std::span<const double> temperatureChange) {
+FluxEnergies energiesByRule(const Law& law, Physics physics, const mesh::Shape<dim>& shape,
+                            std::span<const Point> points, std::span<const double> displacements,
+                            const Nodal& nodalFluxes, std::span<const double> temperatureChange) {
   const auto corners = mesh::relativeCorners<dim>(points);
+  const auto& samples = physics == Physics::axisymmetric ? shape.revolvedSamples() : shape.fineSamples();
   FluxEnergies energies;
-  for (const auto& sample : shape.fineSamples()) {
+  for (const auto& sample : samples) {
     const mesh::ElementMap map(corners, sample);
     const typename Law::Flux flux = fluxAt(law, map, sample, displacements, temperatureChange);
-    const double weight = sample.weight * map.determinant();
+    const double weight = sample.weight * law.around(sample) * map.determinant();
     energies.difference += weight * law.density(nodalFluxes.lazyProduct(sample.values) - flux);
     energies.flux += weight * law.density(flux);
   }
@@ -230,22 +259,23 @@ DisplacementNorms normsOf(const Law& law, const mesh::Shape<dim>& shape, std::sp
       flux -= Eigen::Map<const typename Law::Flux>(given.flux.data());
       value -= Eigen::Map<const Eigen::Matrix<double, Law::components, 1>>(given.displacement.data());
     }
-    weight *= map.determinant();
+    weight *= law.around(sample) * map.determinant();
     norms.energy += weight * law.density(flux);
     norms.square += weight * value.squaredNorm();
   }
   return norms;
 }
 
-/// action(shape, law) for a type of cell and a physics.
+/// action(shape, law) for an element and a physics.
 template <class Action>
-decltype(auto) withLaw(mesh::CellType type, Physics physics, const Material& material, Action&& action) {
+decltype(auto) withLaw(mesh::CellType type, std::span<const Point> points, Physics physics,
+                       const Material& material, Action&& action) {
   assert(dimensionOf(type) == (physics == Physics::elasticity3d ? 3 : 2));
   return withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
     if constexpr (dim == 2)
       if (physics == Physics::membrane)
-        return action(shape, MembraneLaw(physics, material));
-    return action(shape, ElasticLaw<dim>(physics, material));
+        return action(shape, MembraneLaw(physics, material, points));
+    return action(shape, ElasticLaw<dim>(physics, material, points));
   });
 }
 
@@ -263,7 +293,7 @@ void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics p
                    const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes,
                    std::span<const double> temperatureChange) {
   fluxes.resize(numFluxes(physics), numSampledFluxes(type));
-  withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
+  withLaw(type, points, physics, material, [&](const auto& shape, const auto& law) {
     sampleFlux(law, shape, points, displacements, fluxes, temperatureChange);
   });
 }
@@ -272,15 +302,16 @@ FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Ph
                           const Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes,
                           std::span<const double> temperatureChange) {
-  return withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
+  return withLaw(type, points, physics, material, [&](const auto& shape, const auto& law) {
     using Law = std::decay_t<decltype(law)>;
     assert(nodalFluxes.rows() == Law::numFluxes && nodalFluxes.cols() == shape.numNodes);
     const Eigen::Map<const Eigen::Matrix<double, Law::numFluxes, Eigen::Dynamic>, 0, Eigen::OuterStride<>>
         fluxes(nodalFluxes.data(), Law::numFluxes, nodalFluxes.cols(),
                Eigen::OuterStride<>(nodalFluxes.outerStride()));
-    return shape.isSimplex && shape.order == 1 && temperatureChange.empty()
+    return shape.isSimplex && shape.order == 1 && physics != Physics::axisymmetric &&
+                   temperatureChange.empty()
                ? simplexEnergies(law, shape, points, displacements, fluxes)
-               : energiesByRule(law, shape, points, displacements, fluxes, temperatureChange);
+               : energiesByRule(law, physics, shape, points, displacements, fluxes, temperatureChange);
   });
 }
 
@@ -288,7 +319,7 @@ CongruentFluxes::CongruentFluxes(mesh::CellType type, std::span<const Point> poi
                                  const Material& material) {
   elementStiffness(type, points, physics, material, stiffness_);
   const Eigen::Index unknowns = stiffness_.rows();
-  withLaw(type, physics, material, [&]<int dim>(const mesh::Shape<dim>& shape, const auto& law) {
+  withLaw(type, points, physics, material, [&]<int dim>(const mesh::Shape<dim>& shape, const auto& law) {
     constexpr int numFluxes = std::decay_t<decltype(law)>::numFluxes;
     const auto corners = mesh::relativeCorners<dim>(points);
     const Eigen::MatrixXd root = rootOfDensity(law);
@@ -326,7 +357,7 @@ Eigen::VectorXd CongruentFluxes::differences(const Eigen::MatrixXd& displacement
 DisplacementNorms differenceNorms(mesh::CellType type, std::span<const Point> points, Physics physics,
                                   const Material& material, std::span<const double> displacements,
                                   const std::function<FieldValue(const Point&)>& exact) {
-  return withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
+  return withLaw(type, points, physics, material, [&](const auto& shape, const auto& law) {
     return normsOf(law, shape, points, displacements, exact);
   });
 }

@@ -17,7 +17,7 @@
 namespace epafi::fem {
 
 /// Components of a flux: 2 of a membrane (x, y), 6 of a stress (xx, yy, zz, xy, yz, zx; 0 what the plane has
-/// not).
+/// not; zz of solids of revolution is the hoop stress).
 int numFluxes(Physics physics);
 
 /// How many columns sampledFluxes() gives: 1 of order 1, else as many as nodes.
@@ -38,8 +38,8 @@ struct FluxEnergies {
   double flux = 0;       ///< of q_h
 };
 
-/// Exact on elements with straight edges (bricks: parallelepipeds). \param nodalFluxes q* at the nodes,
-/// numFluxes × nodes \param temperatureChange  as of sampledFluxes
+/// Exact on elements with straight edges (bricks: parallelepipeds) but of solids of revolution.
+/// \param nodalFluxes q* at the nodes, numFluxes × nodes \param temperatureChange  as of sampledFluxes
 FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Physics physics,
                           const Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes,
@@ -50,7 +50,7 @@ FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Ph
 class CongruentFluxes {
 public:
   /// \param points  nodes of one of them. Precondition: it is a quadrilateral or hexahedron whose
-  /// Jacobian is constant.
+  /// Jacobian is constant; the physics is not axisymmetric.
   CongruentFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
                   const Material& material);
 

@@ -63,6 +63,17 @@ ElasticityMatrix elasticityIn(Physics physics, const Material& material) {
   return result;
 }
 
+ElasticityMatrix wholeElasticity(const Material& material) {
+  if (material.elasticity)
+    return *material.elasticity;
+  const auto [lambda, mu] = lameConstants(Physics::elasticity3d, material);
+  ElasticityMatrix result = ElasticityMatrix::Zero();
+  result.topLeftCorner<3, 3>().setConstant(lambda);
+  result.diagonal().array() += mu;
+  result.diagonal().head<3>().array() += mu;
+  return result;
+}
+
 MeanModuli meanModuli(const Material& material) {
   if (!material.elasticity)
     return {material.youngsModulus, material.poissonsRatio};

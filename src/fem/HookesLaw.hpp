@@ -32,6 +32,9 @@ bool isPositiveDefinite(const ElasticityMatrix& elasticity);
 /// others, which have no stress, are left to themselves; those are 0 in it. Precondition: not isotropic.
 ElasticityMatrix elasticityIn(Physics physics, const Material& material);
 
+/// C of any elastic material with strain in all directions, isotropic ones too.
+ElasticityMatrix wholeElasticity(const Material& material);
+
 /// E and ν of an isotropic material; of others those of the isotropic one that has the same energy on the
 /// mean of all directions (Voigt).
 struct MeanModuli {
@@ -51,7 +54,8 @@ using SymmetricTensor = std::array<double, 6>;
 constexpr std::array<std::array<int, 3>, 3> placeInTensor{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
 
 /// Stress from the displacement's gradient, entry (i, j) = ∂u_i/∂x_j, 0 in what the plane has not. Plane
-/// strain has a stress across the plane (zz), plane stress has none. Precondition: not a membrane.
+/// strain has a stress across the plane (zz), plane stress has none; of solids of revolution that is the hoop
+/// stress, from the strain u_x/x in the gradient's entry zz. Precondition: not a membrane.
 SymmetricTensor stressOf(const Eigen::Matrix3d& displacementGradient, Physics physics,
                          const Material& material);
 

@@ -15,10 +15,11 @@ struct Entry {
 };
 
 const Entry& entryOf(Physics physics) {
-  static constexpr std::array<Entry, 4> entries{{{"membrane", 1, 2}, // in the order of Physics
+  static constexpr std::array<Entry, 5> entries{{{"membrane", 1, 2}, // in the order of Physics
                                                  {"plane strain", 2, 2},
                                                  {"plane stress", 2, 2},
-                                                 {"elasticity 3-D", 3, 3}}};
+                                                 {"elasticity 3-D", 3, 3},
+                                                 {"axisymmetric", 2, 2}}};
   return entries[static_cast<std::size_t>(physics)];
 }
 

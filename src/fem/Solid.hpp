@@ -19,12 +19,15 @@ namespace epafi::fem {
 /// planeStrain   linear elasticity in the plane, no strain across it; two unknowns
 /// planeStress   the same, no stress across it
 /// elasticity3d  linear elasticity in space; three unknowns
-enum class Physics { membrane, planeStrain, planeStress, elasticity3d };
+/// axisymmetric  the same of a solid of revolution about the y-axis, of which half a section is meshed, x ≥ 0
+///               being the radius: displacements along x and y alone; two unknowns. Forces, areas and
+///               energies are those of the whole circumference
+enum class Physics { membrane, planeStrain, planeStress, elasticity3d, axisymmetric };
 
-/// "membrane", "plane strain", "plane stress", "elasticity 3-D".
+/// "membrane", "plane strain", "plane stress", "elasticity 3-D", "axisymmetric".
 std::string toString(Physics physics);
 
-/// Unknowns a node: 1, 2, 2, 3.
+/// Unknowns a node: 1, 2, 2, 3, 2.
 int componentsOf(Physics physics);
 
 /// Of what fills the body: 3 in space, else 2.
@@ -109,6 +112,7 @@ struct Solid {
   std::vector<SolidSupport> supports;
   std::vector<SolidLoad> loads;
   bool reducedIntegration = false; ///< of elements by Shape's reducedSamples
+  bool holdsAxis = true;           ///< whether nodes of a solid of revolution that lie on its axis stay there
 };
 
 /// Whether its temperature changes anywhere.

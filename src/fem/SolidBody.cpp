@@ -1,5 +1,8 @@
 #include "epafi/fem/SolidBody.hpp"
 
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/MeshPart.hpp"
+
 #include <algorithm>
 
 namespace epafi::fem {
@@ -24,6 +27,21 @@ void SolidBody::require(bool isMet, const std::string& why) const {
     needs_->push_back({isMet, refusal(why).what()});
   else if (!isMet)
     throw refusal(why);
+}
+
+std::array<Point, 2> SolidBody::box() const {
+  if (mesh.part() != nullptr)
+    return mesh.part()->box();
+  std::vector<Point> points; // of a structured mesh the first and the last will do
+  const GlobalOrdinal step = mesh.structured() != nullptr ? mesh.numNodes() - 1 : 1;
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); node += step)
+    points.push_back(mesh.point(node));
+  return mesh::boxOf(points);
+}
+
+double SolidBody::axisTolerance() const {
+  const auto [lower, upper] = box();
+  return 1e-9 * std::max(upper[0] - lower[0], upper[1] - lower[1]);
 }
 
 mesh::Surface SolidBody::surfaceOf(const std::string& user, const std::string& surface) const {

@@ -6,25 +6,35 @@
 #include "epafi/fem/Solid.hpp"
 #include "epafi/mesh/StructuredMesh.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace epafi::fem {
 
+/// Corners of every element up to a shift where those of a body's elements all have the same stiffness: where
+/// they are congruent, and r is no part of it; else empty.
+inline std::vector<Point> sharedShape(Physics physics, const mesh::Mesh& mesh) {
+  return physics == Physics::axisymmetric ? std::vector<Point>() : mesh::congruentShape(mesh);
+}
+
 /// Keeps references to a solid and its mesh, which must outlive it.
 struct SolidBody {
   const Solid& solid;
   const mesh::Mesh& mesh;
-  /// Corners of every element, from the origin on, where the mesh is structured and all are congruent; else
-  /// empty.
+  /// Corners of every element, from the origin on, where they have one stiffness by region; else empty.
   std::vector<Point> shape;
 
   SolidBody(const Solid& itsSolid, const mesh::Mesh& itsMesh)
-      : solid(itsSolid), mesh(itsMesh), shape(congruentShape(itsMesh)) {}
+      : solid(itsSolid), mesh(itsMesh), shape(sharedShape(itsSolid.physics, itsMesh)) {}
   [[nodiscard]] bool isCongruent() const { return !shape.empty(); }
   [[nodiscard]] int components() const { return componentsOf(solid.physics); }
 
+  /// Lowest and highest coordinates of the whole body.
+  [[nodiscard]] std::array<Point, 2> box() const;
+  /// Nodes of a solid of revolution that are this near to its axis lie on it.
+  [[nodiscard]] double axisTolerance() const;
   /// "body 'name': what".
   [[nodiscard]] InputError refusal(const std::string& what) const {
     return InputError("body '" + solid.name + "': " + what);

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/SupportNormals.hpp"
+#include "epafi/mesh/MeshPart.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,20 @@ int axisOf(const Vector3d& direction) {
 struct Known {
   double value, uncertainty;
 };
+
+/// Of a solid of revolution, as far as they are held here.
+std::vector<GlobalOrdinal> nodesOnAxis(const SolidBody& body) {
+  const mesh::MeshPart* const part = body.mesh.part();
+  const double tolerance = body.axisTolerance();
+  const auto numHeld =
+      part != nullptr ? static_cast<GlobalOrdinal>(part->nodes().size()) : body.mesh.numNodes();
+  std::vector<GlobalOrdinal> nodes;
+  for (GlobalOrdinal held = 0; held < numHeld; ++held)
+    if (const GlobalOrdinal node = part != nullptr ? part->nodes()[held] : held;
+        std::abs(body.mesh.point(node)[0]) <= tolerance)
+      nodes.push_back(node);
+  return nodes;
+}
 
 /// Axes held at a node, orthonormal, and how far it is moved along them.
 class HeldAxes {
@@ -88,6 +103,11 @@ std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBod
                          "its value instead");
     for (const NodeNormal& at : supportNormals(body.mesh, body.surfaceOf(user, support.surface)))
       conditions.push_back({at.node, at.normal, *support.normal, -1, &support});
+  }
+  if (body.solid.physics == Physics::axisymmetric && body.solid.holdsAxis) {
+    static const SolidSupport axis{"axis of revolution", "", {}};
+    for (const GlobalOrdinal node : nodesOnAxis(body))
+      conditions.push_back({node, Vector3d::UnitX(), 0, 0, &axis});
   }
   std::stable_sort(conditions.begin(), conditions.end(), [](const Condition& a, const Condition& b) {
     return a.node != b.node ? a.node < b.node : a.component >= 0 && b.component < 0;

@@ -23,6 +23,7 @@ struct PrescribedValue {
 
 class SolidSupports {
 public:
+  /// Nodes on the axis of a solid of revolution are held across it, whatever supports say, if it holds them.
   /// \throws InputError if a surface is not there, a membrane is to slide, or supports contradict each other.
   explicit SolidSupports(const SolidBody& body);
 

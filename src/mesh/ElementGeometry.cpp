@@ -38,6 +38,17 @@ void measure(const Shape<dim>& reference, std::span<const Point> points, Element
     noteJacobian(shape, reference.measure * leastDeterminant(reference.type, points), -1);
 }
 
+/// ∫wN_a. \param weight  of the values of the shape functions at a point
+template <int dim, class Weight>
+void addShares(const Shape<dim>& shape, std::span<const Point> points,
+               const typename Shape<dim>::Samples& samples, std::span<double> shares, const Weight& weight) {
+  const auto corners = relativeCorners<dim + 1>(points);
+  Eigen::Map<Eigen::VectorXd> sums(shares.data(), shape.numNodes);
+  sums.setZero();
+  for (const auto& sample : samples)
+    sums += (sample.weight * weight(sample.values) * facetNormal(corners, sample).norm()) * sample.values;
+}
+
 } // namespace
 
 Point centreOf(std::span<const Point> points) {
@@ -86,13 +97,15 @@ double measureOf(CellType type, std::span<const Point> points) {
 }
 
 void nodalShares(CellType facet, std::span<const Point> points, std::span<double> shares) {
-  withFacetShape(facet, [&]<int dim>(const Shape<dim>& shape) {
-    const auto corners = relativeCorners<dim + 1>(points);
-    Eigen::Map<Eigen::VectorXd> sums(shares.data(), shape.numNodes);
-    sums.setZero();
-    for (const auto& sample : shape.fineSamples())
-      sums += (sample.weight * facetNormal(corners, sample).norm()) * sample.values;
+  withFacetShape(facet, [&](const auto& shape) {
+    addShares(shape, points, shape.fineSamples(), shares, [](const auto&) { return 1.0; });
   });
+}
+
+void revolvedShares(CellType edge, std::span<const Point> points, std::span<double> shares) {
+  const Shape<1>& shape = referenceShape<1>(edge);
+  addShares(shape, points, shape.revolvedSamples(), shares,
+            [&](const auto& values) { return circumferenceAt(points, values); });
 }
 
 Eigen::Vector3d areaVector(CellType facet, std::span<const Point> points) {

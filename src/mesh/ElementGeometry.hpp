@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -31,6 +33,18 @@ double measureOf(CellType type, std::span<const Point> points);
 /// plane.
 /// \param shares  as many as points, overwritten
 void nodalShares(CellType facet, std::span<const Point> points, std::span<double> shares);
+
+/// 2πx at a point of an element or facet that turns about the y-axis. \param values  of the shape functions
+template <class Values>
+double circumferenceAt(std::span<const Point> points, const Values& values) {
+  double radius = 0;
+  for (std::size_t a = 0; a < points.size(); ++a)
+    radius += values[static_cast<Eigen::Index>(a)] * points[a][0];
+  return 2 * std::numbers::pi * radius;
+}
+
+/// nodalShares of the area that an edge makes as it turns about the y-axis: ∫2πx N_a.
+void revolvedShares(CellType edge, std::span<const Point> points, std::span<double> shares);
 
 /// ∫n over a facet, exact; the normal points outwards if the nodes are in the order of facetsOf() or Surface.
 Eigen::Vector3d areaVector(CellType facet, std::span<const Point> points);

@@ -159,6 +159,7 @@ Shape<dim>::Shape(CellType shapeType)
       reducedSamples_ = samplesOf(*this, productRule<dim>(nodes_.leftCols(1 << dim)));
   } else if (order == 1) {
     gaussSamples_ = {centreSample_};
+    revolvedSamples_ = samplesOf(*this, dim == 1 ? lowDegree<dim>(measure) : highDegree<dim>(measure));
   } else {
     gaussSamples_ = samplesOf(*this, lowDegree<dim>(measure));
     fineSamples_ = samplesOf(*this, highDegree<dim>(measure));

@@ -81,6 +81,10 @@ public:
   [[nodiscard]] const Samples& fineSamples() const {
     return fineSamples_.empty() ? gaussSamples_ : fineSamples_;
   }
+  /// The same, of simplices of order 1 as of those of order 2: for integrands that a radius multiplies.
+  [[nodiscard]] const Samples& revolvedSamples() const {
+    return revolvedSamples_.empty() ? fineSamples() : revolvedSamples_;
+  }
   /// Of bricks and edges of order 2.
   [[nodiscard]] const Samples& reducedSamples() const {
     assert(!reducedSamples_.empty());
@@ -101,7 +105,7 @@ private:
   /// What each node has in each of these, a column each; empty: there are none.
   Eigen::MatrixXd followers_;
   ShapeSample<dim> centreSample_;
-  Samples gaussSamples_, fineSamples_, reducedSamples_, nodeSamples_;
+  Samples gaussSamples_, fineSamples_, revolvedSamples_, reducedSamples_, nodeSamples_;
 };
 
 extern template class Shape<1>;

@@ -152,7 +152,8 @@ std::shared_ptr<const meshing::Partition> makePartition(const scene::Body& body,
   return std::make_shared<const meshing::GroupedPartition>(std::move(parts), mesh, cut.cluster);
 }
 
-/// Bodies that touch have the same unknowns; a vector of the dual problem knows no other.
+/// Bodies that touch have the same unknowns; a vector of the dual problem knows no other. Plane bodies and
+/// solids of revolution do not touch.
 void requireSameComponents(const scene::Scene& scene) {
   for (const scene::Body& body : scene.bodies)
     if (componentsOf(body) != componentsOf(scene.bodies.front()))
@@ -160,6 +161,12 @@ void requireSameComponents(const scene::Scene& scene) {
           "the bodies '" + scene.bodies.front().name + "' and '" + body.name + "' have " +
           std::to_string(componentsOf(scene.bodies.front())) + " and " + std::to_string(componentsOf(body)) +
           " unknowns a node; all bodies of a scene must have the same physics or the same dimension");
+  for (const scene::Body& body : scene.bodies)
+    if ((body.physics == fem::Physics::axisymmetric) !=
+        (scene.bodies.front().physics == fem::Physics::axisymmetric))
+      throw InputError("the physics of the bodies '" + scene.bodies.front().name + "' and '" + body.name +
+                       "' are " + toString(scene.bodies.front().physics) + " and " + toString(body.physics) +
+                       "; beside a solid of revolution all bodies of a scene must be axisymmetric");
 }
 
 } // namespace

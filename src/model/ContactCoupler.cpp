@@ -61,7 +61,8 @@ ContactLayout Coupler::layout() const {
   if (second_.body < 0) {
     const contact::UnitedSurface surface = united(first_);
     return finish(meetObstacle(asked(first_, surface),
-                               contact::surfaceNodes(pointsOf(layoutOf(first_)), surface.surface),
+                               contact::surfaceNodes(pointsOf(layoutOf(first_)), surface.surface, 0,
+                                                     supported_.areOfRevolution),
                                obstacleOf(terms_.obstacle)),
                   first_, second_, "nodes of '" + layoutOf(first_).name + "'");
   }
@@ -107,6 +108,8 @@ contact::ContactTerms Coupler::asked(const Side& first, const contact::UnitedSur
       name_,      first.surfaces.front(), dimensionOf(layoutOf(first).mesh->cellType()), components_,
       terms_.gap, terms_.distance};
   asked.adjust = terms_.adjust;
+  asked.isOfRevolution = supported_.areOfRevolution;
+  asked.givesWay = terms_.stiffness > 0;
   asked.sense = first.body == first_.body ? 1 : -1;
   if (first.surfaces.size() > 1)
     asked.parts = surface.parts;
@@ -157,10 +160,10 @@ std::optional<ContactLayout> Coupler::byPairs() const {
   const contact::UnitedSurface carrier = untied(first, second), faced = untied(second, first);
   contact::ContactTerms asked = this->asked(first, carrier);
   asked.coincide = components_ == 1 && order == orderOf(second) && haveEqualEdges(terms_, bodies_);
-  const contact::SurfaceNodes nodes =
-                                  contact::surfaceNodes(pointsOf(layoutOf(first)), carrier.surface, order),
-                              facing =
-                                  contact::surfaceNodes(pointsOf(layoutOf(second)), faced.surface, order);
+  const contact::SurfaceNodes nodes = contact::surfaceNodes(pointsOf(layoutOf(first)), carrier.surface, order,
+                                                            supported_.areOfRevolution),
+                              facing = contact::surfaceNodes(pointsOf(layoutOf(second)), faced.surface, order,
+                                                             supported_.areOfRevolution);
   if (terms_.coupling != scene::SurfaceContact::Coupling::nodes && !areAlike(asked, nodes, facing))
     return {};
   const contact::FacingNodes pairs = facingNodes(asked, nodes, facing);

@@ -68,9 +68,10 @@ double beyondOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies
     return 1;
   const contact::NodePoints here = [&](GlobalOrdinal node) { return own.mesh->point(node); },
                             there = [&](GlobalOrdinal node) { return other.mesh->point(node); };
-  const contact::ContactTerms asked{
+  contact::ContactTerms asked{
       terms.name, surface,       dimensionOf(own.mesh->cellType()), componentsOf(scene.bodies[body].physics),
       terms.gap,  terms.distance};
+  asked.isOfRevolution = scene.bodies[body].physics == fem::Physics::axisymmetric;
   double whole = 0, covered = 0;
   try {
     for (const contact::MortarFacet& facet :

@@ -58,6 +58,7 @@ std::vector<Body> describeBodies(const std::vector<BodyLayout>& layouts, const M
     Body& body = bodies.emplace_back(Body{layouts[b].name, modes, kernelOffset, firstNode[b]});
     if (modes > 0)
       body.motions = models[b]->rigidMotions();
+    body.isOfRevolution = models[b]->isOfRevolution();
     kernelOffset += modes;
   }
   return bodies;

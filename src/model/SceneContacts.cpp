@@ -154,9 +154,10 @@ namespace {
 /// What the layouts of a scene need beside supports.
 SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
                           const std::vector<BodyLayout>& bodies) {
+  supported.areOfRevolution = scene.bodies.front().physics == fem::Physics::axisymmetric;
   supported.thicknesses = [&](int body, const mesh::Surface& surface) {
     const scene::Body& solid = scene.bodies[body];
-    if (solid.physics == fem::Physics::membrane || solid.physics == fem::Physics::elasticity3d)
+    if (solid.physics != fem::Physics::planeStrain && solid.physics != fem::Physics::planeStress)
       return std::vector<double>();
     std::vector<double> thicknesses(surface.numFacets(), solid.material.thickness);
     if (solid.regions.empty())

@@ -32,6 +32,7 @@ struct SupportedNodes {
   std::function<Eigen::Matrix3d(int body, const mesh::Surface& surface)> axes;
   /// Thicknesses of a plane body at the facets of a surface; empty of other bodies.
   std::function<std::vector<double>(int body, const mesh::Surface& surface)> thicknesses;
+  bool areOfRevolution = false; ///< the bodies, about the y-axis
   /// Extent of a body along a direction.
   std::function<double(int body, const Eigen::Vector3d& direction)> extent;
 };

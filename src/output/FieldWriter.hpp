@@ -43,6 +43,7 @@ struct FieldStep {
 ///    faces, by rows; which, the attribute `cell_type` says; n×1, each point one, for pairs of membranes'
 ///    edges), `normal` n×3 (of length 1, towards the other side; of
 ///    membranes z), `area` n (each node's share of the surface; of plane bodies length times thickness, of
+///    axisymmetric ones that of the whole circumference, of
 ///    membranes
 ///    length), `initial_gap` c, `gap` c − Bu (what remains open), `multiplier` λ_I (force a node, positive
 ///    pushes apart),

@@ -18,6 +18,10 @@ bool isElastic(const Body& body) {
   return body.physics != fem::Physics::membrane;
 }
 
+bool isOfRevolution(const Body& body) {
+  return body.physics == fem::Physics::axisymmetric;
+}
+
 int dimensionOf(const Body& body) {
   return dimensionOf(body.physics);
 }
@@ -28,8 +32,8 @@ std::string text(const std::array<int, 3>& counts) {
 }
 
 fem::Physics physicsOf(const std::string& word) {
-  for (const fem::Physics physics :
-       {fem::Physics::planeStrain, fem::Physics::planeStress, fem::Physics::elasticity3d})
+  for (const fem::Physics physics : {fem::Physics::planeStrain, fem::Physics::planeStress,
+                                     fem::Physics::elasticity3d, fem::Physics::axisymmetric})
     if (toString(physics) == word)
       return physics;
   return fem::Physics::membrane;
@@ -225,6 +229,10 @@ void readPlace(const ListReader& list, const Body& body, fem::SolidLoad& load) {
     list.refuseGiven({"Surface"}, reason);
   if (load.kind != Kind::point && load.kind != Kind::rotation)
     list.refuseGiven({"Point"}, reason);
+  if (load.kind == Kind::rotation && isOfRevolution(body)) {
+    list.refuseGiven({"Point"}, "a solid of revolution turns about its axis, x = 0");
+    load.axis = {0, 1, 0};
+  }
   if (load.kind != Kind::rotation || dimensionOf(body) == 2)
     list.refuseGiven({"Axis"}, reason);
   if (load.kind == Kind::body) {
@@ -334,6 +342,9 @@ Body readBody(const std::string& name, const ListReader& list) {
   body.physics = physicsOf(list.word("Physics"));
   body.mesh = readMesh(list, dimensionOf(body));
   body.reducedIntegration = list.word("Integration") == "reduced";
+  if (!isOfRevolution(body))
+    list.refuseGiven({"Axis"}, "only axisymmetric bodies have one");
+  body.holdsAxis = list.word("Axis") == "held";
   body.material = readMaterial(list, body.physics, {}, false);
   body.regions = readRegions(list.inside("Regions"), body);
   body.supports = readSupports(list.inside("Supports"), body);

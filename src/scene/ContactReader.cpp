@@ -85,6 +85,10 @@ Obstacle obstacleOf(const ListReader& entry, const Body& body, const std::vector
     entry.refuseValue("Obstacle", "it is an obstacle " +
                                       std::string(dimension == 3 ? "in space" : "in the plane") + ", but " +
                                       who + "is not");
+  if (body.physics == fem::Physics::axisymmetric &&
+      (obstacle.kind == Obstacle::Kind::plane ? obstacle.normal[0] != 0 : obstacle.point[0] != 0))
+    entry.refuseValue("Obstacle", who + "is axisymmetric, and meets planes across its axis, with a normal "
+                                        "{0, 1} or {0, -1}, and spheres, circles with their centre at x = 0");
   return obstacle;
 }
 

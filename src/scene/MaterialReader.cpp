@@ -64,13 +64,17 @@ fem::Material readMaterial(const ListReader& list, fem::Physics physics, const f
   }
   const std::string useless = "bodies of the physics \"" + toString(physics) + "\" have none; remove it";
   list.refuseGiven({"Conductivity"}, useless);
-  if (physics == fem::Physics::elasticity3d)
+  if (physics == fem::Physics::elasticity3d || physics == fem::Physics::axisymmetric)
     list.refuseGiven({"Thickness"}, useless);
   take("Thickness", material.thickness);
   if (list.has("Expansion"))
     material.expansion = list.real("Expansion");
   if (list.hasEntries("Elasticity")) {
     material.elasticity = elasticityIn(list);
+    if (physics == fem::Physics::axisymmetric &&
+        !material.elasticity->topRightCorner<4, 2>().isZero(1e-9 * material.elasticity->trace()))
+      list.refuseValue("Elasticity", "a solid of revolution of this material would twist; axis 3 must be "
+                                     "around the body, a plane of symmetry across it");
     return material;
   }
   list.refuseGiven({"Axes"}, "there is no \"Elasticity\" beside it that they could turn");

@@ -165,7 +165,7 @@ void describeLoads(ParameterList& body) {
   addArray(
       load, "Point", Array<double>(),
       "Kind point, unless there is a Surface: where the node lies, {x, y} or {x, y, z}. Kind rotation: a "
-      "point of the axis, unless it is the origin.",
+      "point of the axis, unless it is the origin; axisymmetric bodies turn about x = 0.",
       "");
   addArray(load, "Axis", Array<double>(), "Kind rotation in space, required: direction of the axis.", "");
   addReal(
@@ -174,7 +174,7 @@ void describeLoads(ParameterList& body) {
       "required: force per volume and distance. Kind temperature, required: the change in degrees.");
   addArray(load, "Force", Array<double>(),
            "Elastic bodies, required but for pressure, rotation and temperature: components {x, y} or {x, y, "
-           "z} of the force.",
+           "z} of the force. Kind point of axisymmetric bodies: that of the whole circumference.",
            "");
 }
 
@@ -183,8 +183,10 @@ void describeBody(ParameterList& bodies) {
   addChoice(
       list, "Physics", "membrane",
       "What the body is: a membrane, −∇·(κ∇u) = f, or linearly elastic. All bodies of a scene have the same "
-      "number of unknowns a node.",
-      {"membrane", "plane strain", "plane stress", "elasticity 3-D"});
+      "number of unknowns a node. axisymmetric: a solid of revolution about the y-axis, of which half a "
+      "section is meshed, x >= 0 being the radius; all bodies of a scene, then. Forces at points and of "
+      "contacts are those of the whole circumference, tractions and pressures forces per area as ever.",
+      {"membrane", "plane strain", "plane stress", "elasticity 3-D", "axisymmetric"});
   describeMesh(list);
   addChoice(
       list, "Integration", "full",
@@ -199,6 +201,12 @@ void describeBody(ParameterList& bodies) {
       "and in coarse meshes displacements may waver all the same, and refining need not bring an error down "
       "steadily.",
       {"full", "reduced"});
+  addChoice(
+      list, "Axis", "held",
+      "Axisymmetric bodies: whether nodes at x = 0 stay there, as they have to. free: unless a support holds "
+      "them they may leave the axis a little, as integration by points beside it lets them; so decks mean "
+      "it.",
+      {"held", "free"});
   describeMaterial(list, "of the body outside of its regions");
   describeRegions(list);
   describeSupports(list);
@@ -210,7 +218,9 @@ void describeBody(ParameterList& bodies) {
 
 void describeObstacle(ParameterList& obstacles) {
   ParameterList& obstacle = obstacles.sublist("<obstacle>", false, "One obstacle, which does not move.");
-  addChoice(obstacle, "Kind", "", "A half-space, a circle (in the plane) or a sphere.",
+  addChoice(obstacle, "Kind", "",
+            "A half-space, a circle (in the plane) or a sphere. Axisymmetric bodies meet planes "
+            "y = constant, and spheres as circles about a point of the axis.",
             {"plane", "circle", "sphere"});
   addArray(obstacle, "Point", Array<double>(), "A point on the plane, or the centre: {x, y} or {x, y, z}.",
            "");

@@ -70,7 +70,7 @@ std::vector<AccurateSum> sumContacts(const SolvedScene& solved, const Evaluation
       AccurateSum* const terms = &sums[place * numTerms];
       terms[force].add(rowForce);
       const bool areSwapped = contact.firstBody != solved.scene.contacts[contact.number].first;
-      for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t d = solved.isOfRevolution() ? 1 : 0; d < 3; ++d)
         terms[resultant + d].add((areSwapped ? rowForce : -rowForce) * direction[d]);
       if (isActive[i] > 0.5) {
         terms[active].add(1);

@@ -122,6 +122,8 @@ FrictionResult frictionResult(const SolvedScene& solved, const ContactLayout& co
     const Vector3d whole = force[node.contact] * contact.spatialDirectionOf(row) + along,
                    turning = Vector3d(point[0], point[1], point[2]).cross(whole);
     for (Eigen::Index d = 0; d < 3; ++d) {
+      if (solved.isOfRevolution() && d != 1)
+        continue; // what goes round balances itself
       sums[tangential + d].add(sign * portion * along[d]);
       sums[moment + d].add(sign * portion * turning[d]);
     }

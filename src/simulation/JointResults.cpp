@@ -57,7 +57,9 @@ public:
     size_ = maxOverRanks(solved_.comm(), size_);
   }
   /// On the layout's first body, times −1.
-  [[nodiscard]] Vector3d resultant() const { return vector(0); }
+  [[nodiscard]] Vector3d resultant() const {
+    return solved_.isOfRevolution() ? Vector3d(0, vector(0)[1], 0) : vector(0);
+  }
   [[nodiscard]] JointBalance balance() const {
     const double force = sums_[sizes].value();
     const auto relative = [](double value, double reference) {

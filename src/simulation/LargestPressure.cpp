@@ -77,6 +77,7 @@ private:
   const mesh::Mesh& mesh_;
   mesh::Surface surface_;
   int dimension_;
+  bool isOfRevolution_;
   std::vector<std::vector<std::size_t>> facets_; ///< places of rows; none where a node has no row
   VectorXd areas_, means_;                       ///< ∫N̂_k, p_k
   std::size_t peak_ = 0;
@@ -88,7 +89,7 @@ Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
     : layout_(layout), mesh_(*solved.decomposition.bodies[layout.firstBody].mesh),
       surface_(layout.firstSurfaces.empty() ? mesh_.surface(layout.firstSurface)
                                             : contact::unite(mesh_, layout.firstSurfaces).surface),
-      dimension_(mesh::dimensionOf(surface_.facetType)) {
+      dimension_(mesh::dimensionOf(surface_.facetType)), isOfRevolution_(solved.isOfRevolution()) {
   std::unordered_map<GlobalOrdinal, std::size_t> rowOf;
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
     rowOf.emplace(layout.firstNodes[row], row);
@@ -184,7 +185,8 @@ MatrixXd Pressures::moments(const Patch& patch) const {
       for (const auto& rule : fine.fineSamples()) {
         const auto sample = shape.sampleAt(rule.xi, rule.weight);
         const Eigen::Matrix<double, 3, dim> tangents = mesh::derivatives(nodes, sample);
-        const double area = sample.weight * std::sqrt((tangents.transpose() * tangents).determinant());
+        const double area = sample.weight * std::sqrt((tangents.transpose() * tangents).determinant()) *
+                            (isOfRevolution_ ? nodes.row(0).dot(sample.values) : 1); // but for a factor
         const VectorXd values = area * monomials(patch.coordinates(nodes * sample.values), dimension_);
         for (std::size_t a = 0; a < facets_[f].size(); ++a)
           if (facets_[f][a] != none)

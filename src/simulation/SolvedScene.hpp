@@ -23,6 +23,10 @@ struct SolvedScene {
     const scene::Body& candidate = scene.bodies[body];
     return candidate.physics != fem::Physics::membrane ? &candidate : nullptr;
   }
+  /// Whether its bodies are, about the y-axis: forces across it are in balance all around.
+  [[nodiscard]] bool isOfRevolution() const {
+    return scene.bodies.front().physics == fem::Physics::axisymmetric;
+  }
   /// Whether a contact is that of membranes' edges.
   [[nodiscard]] bool isAlongEdges(int contact) const {
     const int number = decomposition.contacts[contact].number;

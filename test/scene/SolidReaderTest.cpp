@@ -64,6 +64,65 @@ TEST(SolidReaderTest, ReadsBodiesInThePlaneWithThickness) {
   }
 }
 
+/// A cylinder on a ball.
+ParameterList cylinderOnBall() {
+  ParameterList list("Epafi");
+  ParameterList& body = bodyOf(list, "cylinder");
+  body.set("Physics", "axisymmetric").set("Rectangle", numbers({0, 1, 0, 2})).set("Elements", counts({2, 4}));
+  body.set("Young's Modulus", 200.0).set("Poisson's Ratio", 0.3);
+  body.sublist("Loads").sublist("turn").set("Kind", "rotation").set("Value", 3.0);
+  list.sublist("Obstacles").sublist("ball").set("Kind", "circle").set("Point", numbers({0, -3}));
+  list.sublist("Obstacles").sublist("ball").set("Radius", 3.0);
+  ParameterList& pair = list.sublist("Contact").sublist("rest");
+  pair.set("First Body", "cylinder").set("First Surface", "bottom").set("Obstacle", "ball");
+  return list;
+}
+
+TEST(SolidReaderTest, ReadsSolidsOfRevolution) {
+  const scene::Body solid = solidOf(cylinderOnBall());
+  EXPECT_EQ(solid.physics, fem::Physics::axisymmetric);
+  EXPECT_TRUE(solid.holdsAxis);
+  ParameterList loose = cylinderOnBall();
+  bodyOf(loose, "cylinder").set("Axis", "free");
+  EXPECT_FALSE(solidOf(loose).holdsAxis);
+  expectSays(cubeRefusal("Axis", "free"), {"\"Axis\"", "axisymmetric"});
+  EXPECT_EQ(solid.loads.at(0).axis, (Vector3{0, 1, 0}));
+  EXPECT_EQ(solid.loads.at(0).point, (Vector3{0, 0, 0}));
+}
+
+TEST(SolidReaderTest, RefusesWhatIsNotSymmetricAboutTheAxis) {
+  const auto refused = [](const auto& change) {
+    ParameterList list = cylinderOnBall();
+    change(list, bodyOf(list, "cylinder"));
+    return refusal([&] { scene::readScene(list, "scenes/a.xml"); });
+  };
+  const auto ball = [](ParameterList& list) -> ParameterList& {
+    return list.sublist("Obstacles").sublist("ball");
+  };
+  expectSays(refused([](ParameterList&, ParameterList& body) { body.set("Thickness", 2.0); }),
+             {"\"Thickness\"", "axisymmetric"});
+  expectSays(refused([](ParameterList&, ParameterList& body) {
+               body.sublist("Loads").sublist("turn").set("Point", numbers({1, 0}));
+             }),
+             {"\"Point\"", "turns about its axis"});
+  expectSays(refused([&](ParameterList& list, ParameterList&) {
+               ball(list).set("Point", numbers({1, -3}));
+             }),
+             {"\"Obstacle\"", "axisymmetric", "x = 0"});
+  expectSays(refused([&](ParameterList& list, ParameterList&) {
+               ball(list).remove("Radius");
+               ball(list).set("Kind", "plane").set("Normal", numbers({1, 1}));
+             }),
+             {"\"Obstacle\"", "axisymmetric", "{0, 1}"});
+  expectSays(refused([](ParameterList&, ParameterList& body) {
+               body.remove("Young's Modulus");
+               body.remove("Poisson's Ratio");
+               body.set("Elasticity", numbers({4, 0.1, 2, 0.2, 0.3, 3, 5, 6, 7}));
+               body.set("Axes", numbers({1, 0, 0, 0, 1, 1}));
+             }),
+             {"\"Elasticity\"", "would twist"});
+}
+
 TEST(SolidReaderTest, FindsMeshFilesBesideTheScene) {
   ParameterList list = cubeOnFloor();
   ParameterList& cube = bodyOf(list, "cube");
