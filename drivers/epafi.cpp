@@ -100,6 +100,10 @@ simulation::SceneRun solveAsAsked(const scene::Scene& scene, const std::vector<s
 void requireOneOfBoth(const std::string& file, const std::vector<scene::Step>& steps,
                       const Teuchos::ParameterList& list) {
   const auto accuracy = simulation::AccuracyParameters::from(list);
+  if (accuracy.target > 0 && deck::isDeck(file))
+    throw InputError(file +
+                     ": a deck is solved on its own mesh: finer ones would not have its groups of nodes; "
+                     "leave out the target, or refine the deck where it comes from.");
   if (!steps.empty() &&
       (accuracy.target > 0 || accuracy.quantity.kind != simulation::QuantityParameters::Kind::none))
     throw InputError(file +

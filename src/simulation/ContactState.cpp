@@ -130,7 +130,10 @@ std::vector<long long> completeFacets(const ContactLayout& layout, const mesh::S
 
 ContactState contactState(const SolvedScene& solved, int contact) {
   const ContactLayout& layout = solved.decomposition.contacts[contact];
-  const Vector &slack = *solved.solution.slack, &multiplier = *solved.solution.multiplier;
+  const Vector& multiplier = *solved.solution.multiplier;
+  Vector slack(*solved.solution.slack, Teuchos::Copy); // c − Bu
+  if (const RCP<const Vector>& compliance = solved.decomposition.problem.compliance; !compliance.is_null())
+    slack.elementWiseMultiply(-1.0, *compliance, multiplier, 1.0);
   const RowShares around = sharesOfMeans(layout), toNodes = sharesOfSlacks(layout);
 
   const std::vector<std::size_t> own = layout.ownRows();
