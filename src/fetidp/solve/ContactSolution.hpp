@@ -16,8 +16,8 @@ struct ContactSolution {
   std::vector<Eigen::VectorXd> displacement;
   RCP<Vector>
       multiplier; ///< λ on multiplierMap; a positive λ_I is the force that pushes the bodies apart at a node
-  /// C − Bu on multiplierMap: the remaining gap in rows of B_I, the jump in rows of B_E, times the row's size
-  /// between clusters
+  /// c − Bu on multiplierMap, where contacts give way c − Bu + Cλ: the remaining gap in rows of B_I, the jump
+  /// in rows of B_E, times the row's size between clusters
   RCP<Vector> slack;
   RCP<Vector> active; ///< 1 where contact is closed, and where friction sticks, 0 elsewhere, on multiplierMap
 
