@@ -7,6 +7,7 @@
 #include "epafi/mesh/ElementMap.hpp"
 #include "epafi/mesh/ShapeFunctions.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -62,12 +63,8 @@ struct ElasticLaw {
                           const Nodal& nodal) const {
     Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
     whole.template topLeftCorner<components, components>() = gradient;
-    if (isOfRevolution()) { // on the axis u_r/r is ∂u_r/∂r
-      const double circumference = around(sample), onAxis = 1e-9 * mesh::diameterOf(points);
-      whole(2, 2) = circumference > onAxis
-                        ? 2 * std::numbers::pi * nodal.row(0).dot(sample.values) / circumference
-                        : gradient(0, 0);
-    }
+    if (isOfRevolution())
+      whole(2, 2) = hoopStrain(gradient, sample, nodal);
     const SymmetricTensor stress =
         material.elasticity ? stressOf(whole, elasticity) : stressOf(whole, physics, material);
     return Eigen::Map<const Flux>(stress.data());
@@ -86,6 +83,18 @@ struct ElasticLaw {
   /// What a volume is multiplied with.
   [[nodiscard]] double around(const mesh::ShapeSample<dim>& sample) const {
     return isOfRevolution() ? mesh::circumferenceAt(points, sample.values) : 1;
+  }
+
+  /// u_r/r, on the axis ∂u_r/∂r.
+  template <class Nodal>
+  [[nodiscard]] double hoopStrain(const Gradient& gradient, const mesh::ShapeSample<dim>& sample,
+                                  const Nodal& nodal) const {
+    constexpr double onAxis = 1e-9;
+    double largest = 0;
+    for (const Point& point : points)
+      largest = std::max(largest, point[0]);
+    const double radius = around(sample) / (2 * std::numbers::pi);
+    return radius > onAxis * largest ? nodal.row(0).dot(sample.values) / radius : gradient(0, 0);
   }
 
   Physics physics;
