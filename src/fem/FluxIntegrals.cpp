@@ -60,8 +60,8 @@ struct ElasticLaw {
   }
   /// \param nodal  displacements, a column a node
   template <class Nodal>
-  [[nodiscard]] Flux flux(const Gradient& gradient, const mesh::ShapeSample<dim>& sample,
-                          const Nodal& nodal, double temperatureChange) const {
+  [[nodiscard]] Flux flux(const Gradient& gradient, const mesh::ShapeSample<dim>& sample, const Nodal& nodal,
+                          double temperatureChange) const {
     Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
     whole.template topLeftCorner<components, components>() = gradient;
     if (isOfRevolution())

@@ -24,5 +24,17 @@ TEST(RigidModesTest, ALineHoldsNothingAboutItselfUntilItClearlyBends) {
   EXPECT_EQ(numFree(1e-7), -1); // in between it is said, not guessed
 }
 
+TEST(RigidModesTest, ASolidOfRevolutionSlidesAlongItsAxisUntilSomethingHoldsThat) {
+  const RigidModes modes(2, {1, 5, 0}, 3, true);
+  EXPECT_EQ(modes.number(), 1);
+  EXPECT_EQ(modes.at({7, 2, 0}, 0)[0], 0);
+  EXPECT_EQ(modes.at({7, 2, 0}, 1)[0], 1);
+  EXPECT_EQ(modes.twists(), (Eigen::MatrixXd(6, 1) << 0, 1, 0, 0, 0, 0).finished());
+  const HeldDirection across{{0, 1, 0}, Eigen::Vector3d::UnitX()},
+      slanted{{4, 1, 0}, Eigen::Vector3d(0.6, 0.8, 0)};
+  EXPECT_EQ(modes.freeOf(std::vector{across}).modes.cols(), 1);
+  EXPECT_EQ(modes.freeOf(std::vector{across, slanted}).modes.cols(), 0);
+}
+
 } // namespace
 } // namespace epafi::decomposition

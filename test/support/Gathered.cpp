@@ -51,7 +51,7 @@ scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
   body.supports = supports;
   body.decomposition = cut;
   body.loads = {fem::loadInside("all", mesh::rectangle(0, 1, 0, 1), -1.0)};
-  return {"one body", {body}, {}};
+  return {"one body", {body}, {}, {}};
 }
 
 scene::Scene twoMembranes(bool coercive, int elements, const scene::Decomposition& cut) {

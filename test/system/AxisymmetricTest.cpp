@@ -1,5 +1,5 @@
-// Solids of revolution with closed forms: a tube under pressure, a turning shaft, a ring shrunk onto a shaft, and
-// what a body does that nothing holds along its axis.
+// Solids of revolution with closed forms: a tube under pressure, a turning shaft, a ring shrunk onto a shaft,
+// and what a body does that nothing holds along its axis.
 
 #include "support/MeshFiles.hpp"
 #include "support/SolidScenes.hpp"
