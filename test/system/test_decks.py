@@ -64,9 +64,10 @@ def reference(name, kind, folder):
     text = deck(name)
     if kind == "linear":
         text = re.sub(r",\s*NLGEOM(=YES)?", "", text, flags=re.I)
-    text = re.sub(r"\*(NODE FILE).*", r"*\1", text, flags=re.I)
+    plane = ", OUTPUT=2D" if re.search("TYPE *= *CAX", text, re.I) else ""
+    text = re.sub(r"\*NODE FILE.*", "*NODE FILE" + plane, text, flags=re.I)
     if not re.search(r"\*NODE FILE", text, re.I):
-        text = re.sub(r"(\*END STEP)", r"*NODE FILE\nU\n\1", text, flags=re.I)
+        text = re.sub(r"(\*END STEP)", rf"*NODE FILE{plane}\nU\n\1", text, flags=re.I)
     (folder / f"{name}.inp").write_text(text, encoding="latin-1")
     subprocess.run(["ccx", name], cwd=folder, capture_output=True, timeout=120, check=True)
     return displacements_in_frd((folder / f"{name}.frd").read_text(encoding="latin-1"))
