@@ -2,6 +2,7 @@
 
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 
 #include <Teuchos_Array.hpp>
 
