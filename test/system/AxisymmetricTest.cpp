@@ -140,7 +140,34 @@ TEST(ShrinkFitTest, PressureIsThatOfTheClosedForm) {
   }
 }
 
-/// A shaft that floats: tied, pressed onto a sphere, or onto nothing.
+/// Two cylinders of the height 1 with springs between them: the upper end sinks by p/K + 2p/E everywhere.
+TEST(SoftRevolutionTest, SpringsActByTheAreasThatTheirNodesMakeAllAround) {
+  constexpr double pressure = 3, stiffness = 10;
+  for (const bool byMortar : {false, true}) {
+    scene::Scene scene;
+    scene.bodies = {block("lower", mesh::rectangle(0, 1, 0, 1), {byMortar ? 5 : 4, 3, 0}, cutByMetis(3)),
+                    block("upper", mesh::rectangle(0, 1, 1, 2), {4, 3, 0}, cutByMetis(3))};
+    for (scene::Body& body : scene.bodies) {
+      body.physics = Physics::axisymmetric;
+      body.mesh.order = 2;
+    }
+    scene.bodies[0].supports = {slide("bottom")};
+    scene.bodies[1].loads = {
+        {"press", fem::SolidLoad::Kind::pressure, {}, "top", {0, 0, 0}, {pressure, 0, 0}}};
+    scene.contacts = {between("joint", 0, "top", 1, "bottom")};
+    scene.contacts[0].stiffness = stiffness;
+    const SolidRun run(scene);
+    EXPECT_EQ(run.solver.report().status, qp::Status::converged) << run.solver.report().reason;
+    EXPECT_NEAR(run.solution.contactForce, pressure * std::numbers::pi, 1e-7);
+    const Eigen::VectorXd u = run.displacement(1);
+    const mesh::Mesh& mesh = *run.decomposition.bodies[1].mesh;
+    for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+      EXPECT_NEAR(u[2 * node + 1], -pressure / stiffness - pressure / modulus * mesh.point(node)[1], 1e-7)
+          << byMortar;
+  }
+}
+
+/// A shaft that floats, pressed onto a sphere, away from it, or where nothing is.
 TEST(FloatingRevolutionTest, ABodyMovesAlongItsAxisAlone) {
   for (const int cluster : {0, 1}) {
     scene::Scene scene;
