@@ -211,7 +211,7 @@ void Shape<dim>::findFollowers() {
 
 template <int dim>
 NodalValues Shape<dim>::values(const Coordinates<dim>& xi) const {
-  const NodalValues all = valuesOfAll(xi);
+  NodalValues all = valuesOfAll(xi);
   if (followers_.cols() == 0)
     return all;
   return all.head(numNodes) + followers_.lazyProduct(all.tail(followers_.cols()));
@@ -219,7 +219,7 @@ NodalValues Shape<dim>::values(const Coordinates<dim>& xi) const {
 
 template <int dim>
 NodalColumns<dim> Shape<dim>::gradients(const Coordinates<dim>& xi) const {
-  const NodalColumns<dim> all = gradientsOfAll(xi);
+  NodalColumns<dim> all = gradientsOfAll(xi);
   if (followers_.cols() == 0)
     return all;
   return all.leftCols(numNodes) + all.rightCols(followers_.cols()).lazyProduct(followers_.transpose());

@@ -12,6 +12,9 @@
 #include "epafi/model/TiedNodes.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -186,7 +186,7 @@ TEST_F(RefusedPiecesTest, PointsWithoutANodeAreRefused) {
 
 TEST_F(RefusedPiecesTest, SurfacesThatAreNotThereAreRefused) {
   scene_.bodies[0].supports[0].surface = "ceiling";
-  expectRefusedAlike("names the surface 'ceiling'");
+  expectRefusedAlike("names the surface or set of nodes 'ceiling'");
 }
 
 TEST_F(RefusedPiecesTest, FilesThatAreNotThereAreRefused) {

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-constexpr double pressure = 3, young = 200;
+constexpr double pressedBy = 3, modulus = 200;
 
 /// Two blocks of height 1 on top of each other, pressed from above; the upper one `across` elements wide, the
 /// lower one two, so that mortars join all but two on two. Sides are free, and ν is 0: stress is uniform.
@@ -24,7 +24,7 @@ scene::Scene stack(int dimension, int order, int across, double stiffness) {
     scene.bodies.push_back(block(isUpper ? "upper" : "lower", box,
                                  dimension == 2 ? std::array{n, 2, 0} : std::array{n, 2, 2},
                                  cutInGrid({2, 1, 1})));
-    scene.bodies.back().material.youngsModulus = young;
+    scene.bodies.back().material.youngsModulus = modulus;
     scene.bodies.back().material.poissonsRatio = 0;
     scene.bodies.back().mesh.order = order;
     scene.bodies.back().supports.push_back(slide("left"));
@@ -32,7 +32,7 @@ scene::Scene stack(int dimension, int order, int across, double stiffness) {
       scene.bodies.back().supports.push_back(slide("front"));
   }
   scene.bodies[0].supports.push_back(slide("bottom"));
-  scene.bodies[1].loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "top", {}, {pressure, 0, 0}}};
+  scene.bodies[1].loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "top", {}, {pressedBy, 0, 0}}};
   scene.contacts = {between("joint", 1, "bottom", 0, "top")};
   scene.contacts[0].stiffness = stiffness;
   return scene;
@@ -54,10 +54,10 @@ TEST_P(SoftContactTest, GivesWayByPressureOverStiffness) {
   const auto [dimension, order, across] = GetParam();
   for (const double stiffness : {1e-1, 1e2, 1e6}) {
     const SolidRun run(stack(dimension, order, across, stiffness));
-    expectMoved(run, 0, dimension, 1, -pressure / young);
-    expectMoved(run, 1, dimension, 1, -pressure / young - pressure / stiffness);
-    expectMoved(run, 1, dimension, 2, -2 * pressure / young - pressure / stiffness);
-    EXPECT_NEAR(run.solution.contactForce, pressure * 2, 1e-7);
+    expectMoved(run, 0, dimension, 1, -pressedBy / modulus);
+    expectMoved(run, 1, dimension, 1, -pressedBy / modulus - pressedBy / stiffness);
+    expectMoved(run, 1, dimension, 2, -2 * pressedBy / modulus - pressedBy / stiffness);
+    EXPECT_NEAR(run.solution.contactForce, pressedBy * 2, 1e-7);
     // All is linear here: energy is minus half the work, that of the contact too.
     EXPECT_NEAR(run.solution.energy, -0.5 * run.solution.loadWork, 1e-8 * run.solution.loadWork);
   }
@@ -146,11 +146,11 @@ TEST(AdjustTest, GapsUpToItCountAsNone) {
     scene::Scene scene = stack(2, 1, across, 0);
     scene.bodies[1].mesh.box = {{0, 1.01, 0}, {2, 2.01, 0}};
     scene.contacts[0].adjust = 0.02;
-    expectMoved(SolidRun(scene), 1, 2, 2.01, -2 * pressure / young);
+    expectMoved(SolidRun(scene), 1, 2, 2.01, -2 * pressedBy / modulus);
     scene.contacts[0].adjust = 0.005;
-    expectMoved(SolidRun(scene), 1, 2, 2.01, -0.01 - 2 * pressure / young);
+    expectMoved(SolidRun(scene), 1, 2, 2.01, -0.01 - 2 * pressedBy / modulus);
     scene.bodies[1].mesh.box = {{0, 0.99, 0}, {2, 1.99, 0}}; // overlaps
-    expectMoved(SolidRun(scene), 1, 2, 1.99, -2 * pressure / young);
+    expectMoved(SolidRun(scene), 1, 2, 1.99, -2 * pressedBy / modulus);
   }
 }
 
