@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-constexpr double pressedBy = 3, modulus = 200;
+constexpr double pressedBy = 3, youngOfSoft = 200;
 
 /// Two blocks of height 1 on top of each other, pressed from above; the upper one `across` elements wide, the
 /// lower one two, so that mortars join all but two on two. Sides are free, and ν is 0: stress is uniform.
@@ -24,7 +24,7 @@ scene::Scene stack(int dimension, int order, int across, double stiffness) {
     scene.bodies.push_back(block(isUpper ? "upper" : "lower", box,
                                  dimension == 2 ? std::array{n, 2, 0} : std::array{n, 2, 2},
                                  cutInGrid({2, 1, 1})));
-    scene.bodies.back().material.youngsModulus = modulus;
+    scene.bodies.back().material.youngsModulus = youngOfSoft;
     scene.bodies.back().material.poissonsRatio = 0;
     scene.bodies.back().mesh.order = order;
     scene.bodies.back().supports.push_back(slide("left"));
@@ -54,9 +54,9 @@ TEST_P(SoftContactTest, GivesWayByPressureOverStiffness) {
   const auto [dimension, order, across] = GetParam();
   for (const double stiffness : {1e-1, 1e2, 1e6}) {
     const SolidRun run(stack(dimension, order, across, stiffness));
-    expectMoved(run, 0, dimension, 1, -pressedBy / modulus);
-    expectMoved(run, 1, dimension, 1, -pressedBy / modulus - pressedBy / stiffness);
-    expectMoved(run, 1, dimension, 2, -2 * pressedBy / modulus - pressedBy / stiffness);
+    expectMoved(run, 0, dimension, 1, -pressedBy / youngOfSoft);
+    expectMoved(run, 1, dimension, 1, -pressedBy / youngOfSoft - pressedBy / stiffness);
+    expectMoved(run, 1, dimension, 2, -2 * pressedBy / youngOfSoft - pressedBy / stiffness);
     EXPECT_NEAR(run.solution.contactForce, pressedBy * 2, 1e-7);
     // All is linear here: energy is minus half the work, that of the contact too.
     EXPECT_NEAR(run.solution.energy, -0.5 * run.solution.loadWork, 1e-8 * run.solution.loadWork);
@@ -146,11 +146,11 @@ TEST(AdjustTest, GapsUpToItCountAsNone) {
     scene::Scene scene = stack(2, 1, across, 0);
     scene.bodies[1].mesh.box = {{0, 1.01, 0}, {2, 2.01, 0}};
     scene.contacts[0].adjust = 0.02;
-    expectMoved(SolidRun(scene), 1, 2, 2.01, -2 * pressedBy / modulus);
+    expectMoved(SolidRun(scene), 1, 2, 2.01, -2 * pressedBy / youngOfSoft);
     scene.contacts[0].adjust = 0.005;
-    expectMoved(SolidRun(scene), 1, 2, 2.01, -0.01 - 2 * pressedBy / modulus);
+    expectMoved(SolidRun(scene), 1, 2, 2.01, -0.01 - 2 * pressedBy / youngOfSoft);
     scene.bodies[1].mesh.box = {{0, 0.99, 0}, {2, 1.99, 0}}; // overlaps
-    expectMoved(SolidRun(scene), 1, 2, 1.99, -2 * pressedBy / modulus);
+    expectMoved(SolidRun(scene), 1, 2, 1.99, -2 * pressedBy / youngOfSoft);
   }
 }
 
