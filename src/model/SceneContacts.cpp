@@ -333,8 +333,8 @@ RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<Cont
         add(problem.numInequalities + numTangents * (contact.firstFriction + offset) + k, terms.stickSlope);
     }
   }
-  for (LocalOrdinal i = 0; i < values.size(); ++i)
-    values[i] = values[i] > 0 ? 1 / values[i] : 0;
+  for (double& value : values)
+    value = value > 0 ? 1 / value : 0;
   return compliance;
 }
 
