@@ -128,8 +128,26 @@ fetidp::ContactSolution ContactSolver::solve(const decomposition::ProblemData& d
   return solution;
 }
 
+namespace {
+
+/// gᵀC⁻¹g of the rows that give way, of this rank; they become 0 in g.
+double takenBySprings(const Vector& compliance, Vector& gradient) {
+  const auto values = compliance.getData();
+  const auto rest = gradient.getDataNonConst();
+  double sum = 0;
+  for (LocalOrdinal i = 0; i < rest.size(); ++i)
+    if (values[i] > 0) {
+      sum += rest[i] * rest[i] / values[i];
+      rest[i] = 0;
+    }
+  return sum;
+}
+
+} // namespace
+
 /// (g^Pᵀ M g^P)^½ of the gradient g = c − Bu: no eigenvalue of MF is below 1, so that it is the algebraic
-/// error in the energy norm at most (see qp/StoppingRule.hpp). Collective.
+/// error in the energy norm at most (see qp/StoppingRule.hpp), that of the springs of contacts included.
+/// Collective.
 double ContactSolver::algebraicErrorOf(const decomposition::ProblemData& data,
                                        const fetidp::ContactSolution& solution) const {
   if (dual_->algorithm() == fetidp::Algorithm::direct)
@@ -140,7 +158,13 @@ double ContactSolver::algebraicErrorOf(const decomposition::ProblemData& data,
   dual_->feasibleForces(data, *solution.multiplier)
       ->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
   dual_->preconditioner()->apply(gradient, image);
-  return std::sqrt(std::max(0.0, accurateDot(gradient, image)));
+  const double whole = std::max(0.0, accurateDot(gradient, image));
+  if (problem_->compliance.is_null())
+    return std::sqrt(whole);
+  // (F + C)⁻¹ is no greater than C⁻¹ either: of contacts that give way this is the smaller one.
+  const double springs = sumOverRanks(*problem_->comm, takenBySprings(*problem_->compliance, gradient));
+  dual_->preconditioner()->apply(gradient, image);
+  return std::sqrt(std::min(whole, 2 * (springs + std::max(0.0, accurateDot(gradient, image)))));
 }
 
 namespace {
