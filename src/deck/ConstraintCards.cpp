@@ -26,17 +26,6 @@ void addTerms(Reading& reading, const Fields& fields, GlobalOrdinal numTerms, Eq
   }
 }
 
-/// CalculiX' own example of a user's amplitude, t², in steps of a twentieth.
-std::vector<std::pair<double, double>> squareOfTime() {
-  constexpr int perUnit = 20, last = 20;
-  std::vector<std::pair<double, double>> points;
-  for (int i = 0; i <= perUnit * last; ++i) {
-    const double time = static_cast<double>(i) / perUnit;
-    points.emplace_back(time, time * time);
-  }
-  return points;
-}
-
 } // namespace
 
 void readEquation(Reading& reading, const Card& card) {
@@ -91,7 +80,7 @@ void readAmplitude(Reading& reading, const Card& card) {
     if (!name.starts_with("QUADRATIC"))
       card.refuse(
           "USER calls a subroutine, which there is none of here; write it as a table of times and factors");
-    amplitude.points = squareOfTime();
+    amplitude.isSquareOfTime = true;
     return;
   }
   for (const Line& line : card.data) {

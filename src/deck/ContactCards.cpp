@@ -78,8 +78,8 @@ void readSurfaceBehavior(Reading& reading, const Card& card) {
     fields.refuse("the stiffness should be positive");
   if (fields.has(1))
     interaction.tension = notNegative(fields, 1, "the tension at large gaps");
-  if (fields.has(2))
-    interaction.range = notNegative(fields, 2, "c0");
+  if (fields.has(2)) // c0, up to which gaps count as contact
+    notNegative(fields, 2, "c0");
 }
 
 void readFriction(Reading& reading, const Card& card) {
@@ -110,7 +110,6 @@ void readContactPair(Reading& reading, const Card& card) {
   pair.interaction = card.required("INTERACTION");
   reading.refer(card, card.place, To::interaction, pair.interaction);
   pair.isSurfaceToSurface = !type.empty() && type != "NODETOSURFACE";
-  pair.smallSliding = card.has("SMALLSLIDING");
   if (card.has("ADJUST")) {
     pair.adjust = parsedReal(card.value("ADJUST"));
     if (!pair.adjust)
@@ -130,7 +129,6 @@ void readTie(Reading& reading, const Card& card) {
   Tie tie;
   tie.name = card.value("NAME");
   tie.tolerance = card.number("POSITIONTOLERANCE");
-  tie.adjust = card.value("ADJUST") != "NO";
   requireLines(card, "the dependent (slave) and the independent (master) surface");
   for (const Line& line : card.data) {
     tie.place = line.place();

@@ -115,6 +115,8 @@ struct Amplitude {
   Place place;
   std::vector<std::pair<double, double>> points; ///< time and factor; times ascending
   bool isOfTotalTime = false;                    ///< otherwise time begins with the step
+  /// USER, as CalculiX is delivered: t², whatever the points.
+  bool isSquareOfTime = false;
 };
 
 /// *SURFACE INTERACTION with its *SURFACE BEHAVIOR and *FRICTION.
@@ -125,7 +127,6 @@ struct Interaction {
   Law law = Law::hard;
   double stiffness = 0;          ///< pressure per closure; of law hard 0: rigid
   std::optional<double> tension; ///< σ∞: the tension at a large gap
-  std::optional<double> range;   ///< c0
   double friction = 0;           ///< μ
   std::optional<double> stickSlope;
 };
@@ -135,7 +136,7 @@ struct ContactPair {
   std::string interaction;
   std::string dependent;   ///< the slave surface
   std::string independent; ///< the master surface
-  bool isSurfaceToSurface = false, smallSliding = false;
+  bool isSurfaceToSurface = false;
   std::optional<double> adjust; ///< nodes of the dependent surface up to this far are moved onto the other
   std::string adjustSet;        ///< or those of this set of nodes
 };
@@ -144,7 +145,6 @@ struct Tie {
   Place place;
   std::string name, dependent, independent;
   std::optional<double> tolerance;
-  bool adjust = true;
 };
 
 /// *PRE-TENSION SECTION, of a surface through a solid or of a beam element.
@@ -196,17 +196,6 @@ struct Temperature {
   double delay = 0;
 };
 
-/// *NODE PRINT, *EL PRINT, *CONTACT PRINT, *SECTION PRINT.
-struct Print {
-  enum class Of { nodes, elements, contact, section };
-  Place place;
-  Of of = Of::nodes;
-  std::string set; ///< or surface; may be empty of contact
-  std::vector<std::string> quantities;
-  bool isGlobal = false; ///< components along x, y, z where nodes have axes of their own
-  bool totals = false, onlyTotals = false;
-};
-
 struct FrictionChange {
   Place place;
   std::string interaction;
@@ -233,7 +222,6 @@ struct Step {
   std::vector<Temperature> temperatures;
   std::vector<FrictionChange> frictions;
   std::vector<PairChange> pairs;
-  std::vector<Print> prints;
 };
 
 /// What makes no difference here and is passed over; named once.

@@ -66,6 +66,10 @@ ModelMaker::ModelMaker(const Deck& deck, std::string mesh)
                              ": NLGEOM: displacements are small here: the linear problem is solved");
       break;
     }
+  for (const auto& [name, amplitude] : deck.amplitudes)
+    if (amplitude.isSquareOfTime)
+      model_.notes.push_back(text(amplitude.place) + ": *AMPLITUDE, USER: " + name +
+                             " is the square of time, as CalculiX is delivered");
   for (const Ignored& ignored : deck.ignored)
     model_.notes.push_back(text(ignored.place) + ": " + ignored.keyword + " is passed over");
 }
@@ -119,13 +123,13 @@ void ModelMaker::addBodies() {
         own = &list.sublist("Regions").sublist(name);
         own->set("Group", elementsNamed(name, elements));
       }
-      addMaterial(*own, deck_.sections[section], isRegion);
+      addMaterial(*own, deck_.sections[section]);
       isRegion = true;
     }
   }
 }
 
-void ModelMaker::addMaterial(ParameterList& list, const Section& section, bool /*isRegion*/) {
+void ModelMaker::addMaterial(ParameterList& list, const Section& section) {
   const Material& material = deck_.materials.at(section.material);
   if (!material.elastic)
     throw InputError(text(material.place) + ": *MATERIAL: " + section.material +

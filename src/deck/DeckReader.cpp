@@ -63,14 +63,7 @@ const std::vector<Heeded> heededKeywords{
     {"DSLOAD", Where::step, {"OP", "AMPLITUDE", "TIMEDELAY"}, readSurfaceLoad},
     {"TEMPERATURE", Where::step, {"OP", "AMPLITUDE", "TIMEDELAY"}, readTemperature},
     {"CHANGE FRICTION", Where::step, {"INTERACTION"}, readFrictionChange},
-    {"MODEL CHANGE", Where::step, {"TYPE", "ADD", "REMOVE"}, readModelChange},
-    {"NODE PRINT", Where::step, {"NSET", "FREQUENCY", "TOTALS", "GLOBAL"}, readNodePrint},
-    {"EL PRINT", Where::step, {"ELSET", "FREQUENCY", "TOTALS", "GLOBAL"}, readElementPrint},
-    {"CONTACT PRINT",
-     Where::step,
-     {"NSET", "SET", "SLAVE", "MASTER", "FREQUENCY", "TOTALS"},
-     readContactPrint},
-    {"SECTION PRINT", Where::step, {"SURFACE", "NAME", "FREQUENCY", "TOTALS"}, readSectionPrint}};
+    {"MODEL CHANGE", Where::step, {"TYPE", "ADD", "REMOVE"}, readModelChange}};
 
 const Heeded* findHeeded(const std::string& keyword) {
   static const std::map<std::string, const Heeded*> known = [] {

@@ -13,21 +13,21 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names ignoredKeywords{"NODE FILE",          "EL FILE",      "ELEMENT FILE",   "CONTACT FILE",
+const Names ignoredKeywords{"NODE PRINT",         "EL PRINT",     "CONTACT PRINT",  "SECTION PRINT",
+                            "NODE FILE",          "EL FILE",      "ELEMENT FILE",   "CONTACT FILE",
                             "SECTION FILE",       "NODE OUTPUT",  "ELEMENT OUTPUT", "CONTACT OUTPUT",
                             "ENERGY OUTPUT",      "ENERGY PRINT", "OUTPUT",         "FILE FORMAT",
                             "FILE OUTPUT",        "PREPRINT",     "MONITOR",        "PRINT",
                             "CONTROLS",           "TIME POINTS",  "CONDUCTIVITY",   "SPECIFIC HEAT",
                             "PHYSICAL CONSTANTS", "DAMPING",      "DIAGNOSTICS",    "RESTART"};
 
-const Names ignoredNames{"FREQUENCY", "TIMEPOINTS", "OUTPUT",        "LASTITERATIONS", "CONTACTELEMENTS",
-                         "FORCED",    "INC",        "INCF",          "SOLVER",         "DIRECT",
-                         "EXPLICIT",  "UNSYMM",     "EXTRAPOLATE",   "CONVERTSDI",     "OFFSET",
-                         "CONTROLS",  "REFNODE",    "POSITION",      "INTERNAL",       "UNSORTED",
-                         "STABILIZE", "ALLSDTOL",   "CONTINUE",      "MODULI",         "NUMBERINTERVAL",
-                         "SUMMARY",   "NODAL",      "SLIPTOLERANCE", "ELASTICSLIP",    "EXPONENTIALDECAY",
-                         "REGION",    "VARIABLE",   "FIELD",         "HISTORY",        "WRITE",
-                         "NAME"};
+const Names ignoredNames{"FREQUENCY", "TIMEPOINTS",    "OUTPUT",      "LASTITERATIONS", "CONTACTELEMENTS",
+                         "FORCED",    "INC",           "INCF",        "SOLVER",         "DIRECT",
+                         "EXPLICIT",  "UNSYMM",        "EXTRAPOLATE", "CONVERTSDI",     "OFFSET",
+                         "CONTROLS",  "REFNODE",       "POSITION",    "INTERNAL",       "UNSORTED",
+                         "ALLSDTOL",  "CONTINUE",      "MODULI",      "NUMBERINTERVAL", "SUMMARY",
+                         "NODAL",     "SLIPTOLERANCE", "REGION",      "VARIABLE",       "FIELD",
+                         "HISTORY",   "WRITE",         "NAME"};
 
 /// Keywords of one kind, why they are refused, and what to do.
 struct RefusedKeywords {

@@ -110,6 +110,11 @@ void ModelMaker::addContactPair(const ContactPair& pair) {
   if (interaction.law == Interaction::Law::tied)
     throw InputError(text(interaction.place) + ": *SURFACE BEHAVIOR: TIED, a bond with a stiffness, is not "
                                                "solved here; *TIE bonds surfaces as they are");
+  if (!pair.isSurfaceToSurface)
+    model_.notes.push_back(text(pair.place) + ": *CONTACT PAIR: surfaces meet surface to surface here");
+  if (interaction.tension.value_or(0) > 0 && contactsOf_[pair.interaction].empty())
+    model_.notes.push_back(text(interaction.place) +
+                           ": *SURFACE BEHAVIOR: the tension at large gaps is left out");
   for (const std::string& name :
        addPairs(pair.dependent + " - " + pair.independent, pair.dependent, pair.independent, pair.place)) {
     contactsOf_[pair.interaction].push_back(name);

@@ -59,6 +59,8 @@ double ModelMaker::factorAt(const std::string& amplitude, double delay, std::siz
   double time = deck_.steps[step].period - delay;
   for (std::size_t k = 0; curve.isOfTotalTime && k < step; ++k)
     time += deck_.steps[k].period;
+  if (curve.isSquareOfTime)
+    return time * time;
   const auto& points = curve.points;
   const auto behind = // of two values at one time the later one holds
       std::find_if(points.begin(), points.end(), [&](const auto& point) { return point.first > time; });

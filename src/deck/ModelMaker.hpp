@@ -37,7 +37,7 @@ private:
 
   // DeckModel.cpp
   [[nodiscard]] Teuchos::ParameterList& listOf(int body);
-  void addMaterial(Teuchos::ParameterList& list, const Section& section, bool isRegion);
+  void addMaterial(Teuchos::ParameterList& list, const Section& section);
   /// Name of a group of nodes or elements of the mesh that has these; equal ones have one name.
   std::string nodesNamed(const std::string& name, Numbers nodes);
   std::string elementsNamed(const std::string& name, Numbers elements);

@@ -91,9 +91,12 @@ std::vector<double> ModelMaker::constantsOf(const Material& material) const {
   if (rows.size() == 1)
     return rows.front().constants;
   std::set<double> temperatures;
-  for (std::size_t step = 0; step < deck_.steps.size(); ++step)
-    for (const auto& [node, temperature] : temperaturesAt(step))
-      temperatures.insert(temperature);
+  for (std::size_t step = 0; step < deck_.steps.size(); ++step) {
+    const Temperatures now = temperaturesAt(step);
+    for (const DeckBody& body : bodies_.all())
+      for (const GlobalOrdinal node : body.nodes)
+        temperatures.insert(temperatureOf(now, node));
+  }
   if (temperatures.size() != 1)
     throw InputError(text(material.place) +
                      ": *ELASTIC: constants for several temperatures need one temperature of all nodes in "

@@ -3,28 +3,6 @@
 #include "epafi/base/Errors.hpp"
 
 namespace epafi::deck {
-namespace {
-
-/// Of a print's card, all but what it is of. FREQUENCY=0 prints nothing.
-void addPrint(Reading& reading, const Card& card, Print::Of of, const std::string& set) {
-  Print print{card.place, of, set, {}, card.value("GLOBAL") == "YES", false, false};
-  const std::string totals = card.value("TOTALS");
-  if (!totals.empty() && totals != "YES" && totals != "ONLY" && totals != "NO")
-    card.refuse("TOTALS=" + shortened(totals) + " is none of YES, ONLY and NO");
-  print.onlyTotals = totals == "ONLY";
-  print.totals = print.onlyTotals || totals == "YES";
-  for (const Line& line : card.data) {
-    const Fields fields(card, line);
-    for (int i = 0; i < fields.size(); ++i)
-      if (fields.has(i))
-        print.quantities.push_back(fields.name(i, "a quantity"));
-  }
-  if (card.number("FREQUENCY").value_or(1) != 0)
-    reading.step().prints.push_back(std::move(print));
-}
-
-} // namespace
-
 void readHeading(Reading& reading, const Card& card) {
   if (reading.deck.title.empty() && !card.data.empty())
     reading.deck.title = card.data[0].text;
@@ -70,30 +48,6 @@ void readEndStep(Reading& reading, const Card& card) {
   if (reading.awaitsFriction)
     card.refuse("the step has a *CHANGE FRICTION without the *FRICTION that belongs behind it");
   reading.isInStep = false;
-}
-
-void readNodePrint(Reading& reading, const Card& card) {
-  addPrint(reading, card, Print::Of::nodes, reading.nodeSet(card, "NSET"));
-}
-
-void readElementPrint(Reading& reading, const Card& card) {
-  addPrint(reading, card, Print::Of::elements, reading.elementSet(card, "ELSET"));
-}
-
-void readContactPrint(Reading& reading, const Card& card) {
-  std::string set;
-  for (const char* const parameter : {"SLAVE", "NSET", "SET"})
-    if (set.empty())
-      set = card.value(parameter);
-  for (const char* const parameter : {"SLAVE", "MASTER"})
-    reading.refer(card, card.place, Reading::Reference::To::surface, card.value(parameter));
-  addPrint(reading, card, Print::Of::contact, set);
-}
-
-void readSectionPrint(Reading& reading, const Card& card) {
-  const std::string surface = card.required("SURFACE");
-  reading.refer(card, card.place, Reading::Reference::To::surface, surface);
-  addPrint(reading, card, Print::Of::section, surface);
 }
 
 } // namespace epafi::deck

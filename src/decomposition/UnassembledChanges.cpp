@@ -9,6 +9,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -41,6 +42,19 @@ void UnassembledProblem::setContact(const ConstraintMatrix& contact) {
   requireSound(contact, unknownMap_);
   contact_ = contact;
   attach();
+}
+
+void UnassembledProblem::setCompliance(const RCP<const Vector>& compliance) {
+  requireComplete();
+  if (!compliance.is_null()) {
+    if (!compliance->getMap()->locallySameAs(*problem_.multiplierMap))
+      throw InputError("the compliance must lie on the map of the multipliers.");
+    const auto values = compliance->getData();
+    if (!std::all_of(values.begin(), values.end(),
+                     [](double value) { return value >= 0 && std::isfinite(value); }))
+      throw InputError("the compliance of a row must be a finite number of at least 0.");
+  }
+  problem_.compliance = compliance;
 }
 
 void UnassembledProblem::setGap(const Vector& gap) {

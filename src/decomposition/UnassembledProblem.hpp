@@ -87,10 +87,11 @@ public:
   /// that do not suit those of contact.
   void setFriction(const FrictionRows& friction);
 
-  /// Takes C: by what rows of contact and friction give way under a force of 1, each ≥ 0; a penalty that is
-  /// none in K. Not collective. Precondition: complete.
+  /// Takes C, shared: by what rows of contact and friction give way under a force of 1; a penalty that is
+  /// none in K. Where rows are made anew it is gone. Not collective. Precondition: complete.
   /// \param compliance  on problem().multiplierMap, 0 for other rows; or null
-  void setCompliance(RCP<const Vector> compliance) { problem_.compliance = std::move(compliance); }
+  /// \throws InputError for another map, and for entries that are negative or not finite
+  void setCompliance(const RCP<const Vector>& compliance);
 
   /// Takes B_T and c of tied joints, B_T u = c, both shared; rows as those of contact. Collective after
   /// `complete`, and

@@ -49,6 +49,7 @@ RCP<const Vector> UnassembledProblem::enter(const ConstraintMatrix& matrix, Glob
 
 /// Rows of contact, ties and gluing, B and the gaps. Collective.
 void UnassembledProblem::attach() {
+  problem_.compliance = Teuchos::null; // it was of the rows before
   const auto numRows = [](const std::optional<ConstraintMatrix>& matrix) -> GlobalOrdinal {
     return matrix ? matrix->rows->getGlobalNumRows() : 0;
   };

@@ -30,7 +30,6 @@ TEST(ContactCardsTest, ReadsLawsAndFriction) {
   EXPECT_EQ(linear.law, Law::linear);
   EXPECT_EQ(linear.stiffness, 1e7);
   EXPECT_EQ(linear.tension, 3);
-  EXPECT_EQ(linear.range, 0.1);
   EXPECT_EQ(linear.friction, 0.2);
   EXPECT_EQ(linear.stickSlope, 80);
   const deck::Interaction tied = interaction("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1.E7\n");
@@ -59,7 +58,6 @@ TEST(ContactCardsTest, ReadsPairsThatNameAnInteractionOfLater) {
   EXPECT_EQ(deck.contacts[0].dependent, "SLAVE");
   EXPECT_EQ(deck.contacts[0].independent, "MASTER");
   EXPECT_TRUE(deck.contacts[0].isSurfaceToSurface);
-  EXPECT_TRUE(deck.contacts[0].smallSliding);
   EXPECT_EQ(deck.contacts[0].adjust, 0.1);
   EXPECT_FALSE(deck.contacts[1].isSurfaceToSurface);
   EXPECT_EQ(deck.contacts[1].adjustSet, "BASE");
@@ -85,7 +83,6 @@ TEST(ContactCardsTest, ReadsTiesAndBolts) {
   ASSERT_EQ(deck.ties.size(), 1u);
   EXPECT_EQ(deck.ties[0].dependent, "NODES");
   EXPECT_EQ(deck.ties[0].tolerance, 0.1);
-  EXPECT_FALSE(deck.ties[0].adjust);
   ASSERT_EQ(deck.pretensions.size(), 1u);
   EXPECT_EQ(deck.pretensions[0].node, 4);
   EXPECT_EQ(deck.pretensions[0].direction, (Point{0, 0, -1}));

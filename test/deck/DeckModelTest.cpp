@@ -108,6 +108,16 @@ TEST(DeckModelTest, AmplitudesCountAtTheEndOfAStep) {
   EXPECT_EQ(load.get<Teuchos::Array<double>>("Force")[2], 5.0); // half of 2 after 1 of 4
 }
 
+TEST(DeckModelTest, AUsersAmplitudeIsTheSquareOfTimeAndSaysSo) {
+  deck::DeckModel model =
+      modelOf(cubes(joined, "*AMPLITUDE,NAME=QUADRATIC,USER\n*BOUNDARY\nFOOT,1,3\n"
+                            "*STEP\n*STATIC\n1.,30.\n*CLOAD,AMPLITUDE=QUADRATIC\n25,3,10.\n*END STEP\n"));
+  const ParameterList& loads = bodyOf(model, 1).sublist("Loads");
+  ParameterList load = Teuchos::getValue<ParameterList>(loads.entry(loads.begin()));
+  EXPECT_EQ(load.get<Teuchos::Array<double>>("Force")[2], 9000.0);
+  EXPECT_NE(model.notes.at(0).find("square of time"), std::string::npos);
+}
+
 TEST(DeckModelTest, WeightAndRotationHaveTheDensity) {
   deck::DeckModel model = modelOf(cubes(
       joined,

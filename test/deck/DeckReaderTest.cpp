@@ -22,11 +22,13 @@ TEST(DeckReaderTest, NamesTheFirstThingBeyondAndOthersBehind) {
 
 TEST(DeckReaderTest, PassesOverWhatMakesNoDifferenceAndNamesItOnce) {
   const deck::Deck deck =
-      withStep("*NODE FILE\nU\n*EL FILE\nS\n*NODE FILE, FREQUENCY=5\nRF\n*RESTART, WRITE\n");
-  ASSERT_EQ(deck.ignored.size(), 3u);
+      withStep("*NODE FILE\nU\n*EL FILE\nS\n*NODE FILE, FREQUENCY=5\nRF\n*RESTART, WRITE\n"
+               "*NODE PRINT, NSET=base, GLOBAL=YES\nU\n");
+  ASSERT_EQ(deck.ignored.size(), 4u);
   EXPECT_EQ(deck.ignored[0].keyword, "*NODE FILE");
   EXPECT_EQ(deck.ignored[0].place.line, 12);
   EXPECT_EQ(deck.ignored[2].keyword, "*RESTART");
+  EXPECT_EQ(deck.ignored[3].keyword, "*NODE PRINT");
   EXPECT_EQ(withTetrahedron("*STEP\n*STATIC, SOLVER=SPOOLES\n*END STEP\n").ignored[0].keyword,
             "*STATIC, SOLVER");
   expectSays(refusalInStep("*RESTART, READ\n"), {"line 12: *RESTART, READ: "});
@@ -44,22 +46,6 @@ TEST(DeckReaderTest, KeepsGeometryNonlinearFromStepToStep) {
   for (const deck::Step& step : deck.steps)
     isNonlinear.push_back(step.isNonlinear);
   EXPECT_EQ(isNonlinear, (std::vector<bool>{false, true, true, false, false}));
-}
-
-TEST(DeckReaderTest, ReadsPrints) {
-  const deck::Step step =
-      withStep("*NODE PRINT, NSET=base, GLOBAL=YES, TOTALS=ONLY\nU, rf\n*EL PRINT, ELSET=Eall\nS\n"
-               "*NODE PRINT, NSET=base, FREQUENCY=0\nU\n*CONTACT PRINT\nCDIS\n")
-          .steps[0];
-  ASSERT_EQ(step.prints.size(), 3u);
-  EXPECT_EQ(step.prints[0].of, deck::Print::Of::nodes);
-  EXPECT_EQ(step.prints[0].quantities, (std::vector<std::string>{"U", "RF"}));
-  EXPECT_TRUE(step.prints[0].isGlobal);
-  EXPECT_TRUE(step.prints[0].totals);
-  EXPECT_TRUE(step.prints[0].onlyTotals);
-  EXPECT_EQ(step.prints[1].set, "EALL");
-  EXPECT_FALSE(step.prints[1].isGlobal);
-  EXPECT_EQ(step.prints[2].of, deck::Print::Of::contact);
 }
 
 TEST(DeckReaderTest, RefusesStepsThatAreNotWhole) {

@@ -86,6 +86,11 @@ TEST(DeckTemperaturesTest, ModuliAreThoseAtTheTemperatureOfTheStep) {
   EXPECT_FALSE(bodyOf(cold).isParameter("Expansion")) << "no temperature changes";
   deck::DeckModel warm = heated(changing, step("*TEMPERATURE\nNall, 60.\n"));
   EXPECT_NEAR(bodyOf(warm).get<double>("Young's Modulus"), 140, 1e-12);
+  const std::string inPart = "*MATERIAL, NAME=m\n" + changing +
+                             "*SOLID SECTION, ELSET=Eall, MATERIAL=m\n"
+                             "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nbase, 20.\n";
+  expectSays(refusal([&] { (void)deck::modelOf(withTetrahedron(inPart + step("")), "a.inp"); }),
+             {"one temperature of all nodes"}); // nothing is said of node 4
   expectSays(refused(step("*TEMPERATURE\nbase, 60.\n")), {"*ELASTIC", "one temperature of all nodes"});
   expectSays(refused(step("*TEMPERATURE\nNall, 60.\n") + step("*TEMPERATURE\nNall, 70.\n")), {"*ELASTIC"});
 }
