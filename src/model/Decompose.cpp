@@ -8,6 +8,7 @@
 #include "epafi/fem/SubdomainAssembly.hpp"
 #include "epafi/mesh/BracedElements.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/model/ContactData.hpp"
 #include "epafi/model/SceneContacts.hpp"
 #include "epafi/model/SceneEquations.hpp"
 #include "epafi/model/ScenePlaces.hpp"

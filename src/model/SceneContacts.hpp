@@ -4,7 +4,6 @@
 
 #include "epafi/contact/ContactLayout.hpp"
 #include "epafi/contact/ContactMatrix.hpp"
-#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
@@ -61,15 +60,5 @@ contact::ContactLayout layoutContact(const scene::SurfaceContact& terms,
 contact::NodeUnknowns nodeUnknowns(const std::vector<BodyLayout>& bodies,
                                    const std::vector<std::unique_ptr<fem::BodyModel>>& models,
                                    const RCP<const Comm>& comm);
-
-/// C of contacts that give way, on multiplierMap; null if none does. Rows that contacts share have the
-/// springs of all side by side. Collective.
-RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<contact::ContactLayout>& contacts,
-                               const decomposition::DecomposedProblem& problem);
-
-/// Bounds and coefficients of friction; rows that contacts share have what these have, by their areas.
-/// Collective.
-void setFrictionData(const scene::Scene& scene, const std::vector<contact::ContactLayout>& contacts,
-                     const decomposition::DecomposedProblem& problem, decomposition::ProblemData& data);
 
 } // namespace epafi::model

@@ -60,6 +60,15 @@ ConstraintMatrix everySecondRow(const ConstraintMatrix& contact) {
   return {matrix, gap};
 }
 
+/// Lets all rows of contact give way alike.
+void soften(UnassembledProblem& handed, double compliance) {
+  const RCP<Vector> soft = rcp(new Vector(handed.problem().multiplierMap));
+  const auto values = soft->getDataNonConst();
+  for (LocalOrdinal i = 0; i < values.size(); ++i)
+    values[i] = handed.problem().kindOf(OwnedMultiplier(i)) == RowKind::contact ? compliance : 0;
+  handed.setCompliance(soft);
+}
+
 TEST(UnassembledUpdateTest, UpdatesGiveWhatASolverMadeAnewGives) {
   for (const Case& c : handedCases()) {
     SCOPED_TRACE(c.name);
@@ -67,15 +76,18 @@ TEST(UnassembledUpdateTest, UpdatesGiveWhatASolverMadeAnewGives) {
     UnassembledProblem& handed = *twice.handed;
     std::vector<SubdomainMatrix> matrices = matricesOf(c.scene, Supports::prescribed);
     ConstraintMatrix contact = contactOf(c.scene, twice.direct.decomposition, Supports::prescribed);
-    const auto expectAsAnew = [&] {
+    const auto expectAsAnew = [&](double compliance = 0) {
       const ContactSolution updated = twice.solver->solve(handed.data());
       expectEqualFields(handed, updated, solvedAnew(handed));
       const auto anew = handOver(c.scene, matrices);
       anew->setContact(contact);
       anew->complete();
+      if (compliance > 0)
+        soften(*anew, compliance);
       const ContactSolution expected = solvedAnew(*anew);
       expectEqualFields(handed, updated, expected);
       EXPECT_NEAR(updated.energy, expected.energy, 1e-9 * std::abs(expected.energy));
+      return updated.energy;
     };
 
     for (std::size_t s = 0; s < matrices.size(); ++s) { // loads and gaps take no update
@@ -102,7 +114,17 @@ TEST(UnassembledUpdateTest, UpdatesGiveWhatASolverMadeAnewGives) {
     contact = everySecondRow(contact);
     handed.setContact(contact);
     twice.solver->update(handed.data());
-    expectAsAnew();
+    const double hard = expectAsAnew();
+
+    constexpr double compliance = 0.01;
+    soften(handed, compliance);
+    twice.solver->update(handed.data());
+    EXPECT_LT(expectAsAnew(compliance), hard) << "what gives way takes more energy out of the loads";
+
+    handed.setContact(contact); // rows made anew are rigid
+    twice.solver->update(handed.data());
+    EXPECT_NEAR(expectAsAnew(), hard, 1e-9 * std::abs(hard));
+    EXPECT_THROW(soften(handed, -1.0), InputError);
   }
 }
 

@@ -57,4 +57,29 @@ inline Teuchos::ParameterList cubeOnFloor() {
   return list;
 }
 
+/// What readScene says against cubeOnFloor() after a change.
+template <class Change>
+std::string solidRefusal(const Change& change) {
+  Teuchos::ParameterList list = cubeOnFloor();
+  change(list);
+  return refusal([&] { scene::readScene(list, "scenes/a.xml"); });
+}
+
+/// … after a change of the cube's list.
+template <class Value>
+std::string cubeRefusal(const std::string& name, const Value& value) {
+  return solidRefusal([&](Teuchos::ParameterList& list) { bodyOf(list, "cube").set(name, value); });
+}
+
+/// … of a new entry in one of the cube's lists.
+template <class Change>
+std::string entryRefusal(const std::string& kind, const Change& change) {
+  return solidRefusal(
+      [&](Teuchos::ParameterList& list) { change(bodyOf(list, "cube").sublist(kind).sublist("new")); });
+}
+
+inline scene::Body solidOf(const Teuchos::ParameterList& list) {
+  return scene::readScene(list, "scenes/a.xml").bodies.at(0);
+}
+
 } // namespace epafi::test

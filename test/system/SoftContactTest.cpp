@@ -68,6 +68,42 @@ TEST_P(SoftContactTest, GivesWayByPressureOverStiffness) {
   }
 }
 
+/// Springs at nodes have the moment of inertia b w³/12 (1 + 2/n²) of the trapezoidal rule.
+TEST(SoftContactTiltTest, ABlockTiltsTooLittleByTwoOverNSquaredPlusTwo) {
+  for (const int dimension : {2, 3})
+    for (const int across : {1, 2, 4}) {
+      constexpr double stiffness = 100, press = 8, moment = 2, rigid = 1e9;
+      scene::Scene scene = stack(dimension, 1, across, stiffness);
+      scene.bodies[0].mesh.elements[0] = across; // meshed alike
+      for (scene::Body& body : scene.bodies) {
+        body.material.youngsModulus = rigid;
+        body.decomposition = cutInGrid({1, 1, 1});
+      }
+      const std::size_t up = static_cast<std::size_t>(dimension - 1);
+      fem::SolidSupport foot{"foot", "bottom", {0.0, 0.0, 0.0}};
+      scene.bodies[0].supports = {foot};
+      scene.bodies[1].supports = {};
+      if (dimension == 3)
+        scene.bodies[1].supports.push_back(slide("front"));
+      scene.bodies[1].loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "top", {}, {press, 0, 0}},
+                               {"left", fem::SolidLoad::Kind::traction, {}, "left", {}, {}},
+                               {"right", fem::SolidLoad::Kind::traction, {}, "right", {}, {}}};
+      scene.bodies[1].loads[1].value[up] = moment / 2; // a couple, at arms of 1
+      scene.bodies[1].loads[2].value[up] = -moment / 2;
+      scene.contacts[0].friction = 1; // else it slides
+      const SolidRun run(scene);
+      const mesh::Mesh& mesh = *run.decomposition.bodies[1].mesh;
+      const Eigen::VectorXd u = run.displacement(1);
+      double atLeft = 0, atRight = 0;
+      for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+        if (const double x = mesh.point(node)[0]; x < 1e-9 || x > 2 - 1e-9)
+          (x < 1e-9 ? atLeft : atRight) = u[node * dimension + dimension - 1];
+      const double exact = moment / (stiffness * 8 / 12), n = across;
+      EXPECT_NEAR((atLeft - atRight) / 2, exact * n * n / (n * n + 2), 1e-5 * exact)
+          << dimension << ' ' << across;
+    }
+}
+
 TEST_P(SoftContactTest, OpensWhereItIsPulled) {
   const auto [dimension, order, across] = GetParam();
   scene::Scene scene = stack(dimension, order, across, 50);

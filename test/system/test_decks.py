@@ -96,7 +96,9 @@ class DecksTest(unittest.TestCase):
         largest = max(length(u) for u in expected.values())
         self.assertGreater(largest, 0)
         common = found.keys() & expected.keys()
-        self.assertGreaterEqual(len(common), 0.5 * len(expected), name)  # a deck may have nodes without elements
+        # A deck may have nodes without elements or print some alone; copies of shared nodes stand behind all others.
+        own = {node for node in found if node <= max(expected)}
+        self.assertTrue(common and common in (own, expected.keys()), name)
         worst = max(common, key=lambda node: length([a - b for a, b in zip(found[node], expected[node])]))
         apart = length([a - b for a, b in zip(found[worst], expected[worst])]) / largest
         self.assertLessEqual(apart, tolerance, f"{name}: node {worst} is at {found[worst]}, not {expected[worst]}")

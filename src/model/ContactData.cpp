@@ -1,0 +1,56 @@
+#include "epafi/model/ContactData.hpp"
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+
+namespace epafi::model {
+
+RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<contact::ContactLayout>& contacts,
+                               const decomposition::DecomposedProblem& problem) {
+  if (std::none_of(scene.contacts.begin(), scene.contacts.end(), [](const scene::SurfaceContact& contact) {
+        return contact.stiffness > 0 || contact.stickSlope > 0;
+      }))
+    return Teuchos::null;
+  const RCP<Vector> compliance = rcp(new Vector(problem.multiplierMap)); // stiffness first
+  const auto values = compliance->getDataNonConst();
+  const GlobalOrdinal numTangents = problem.components - 1;
+  for (const contact::ContactLayout& contact : contacts) {
+    const scene::SurfaceContact& terms = scene.contacts[contact.number];
+    for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
+      const double area = contact.portion(row) * contact.areas[row];
+      const GlobalOrdinal offset = row;
+      const auto add = [&](GlobalOrdinal number, double stiffness) {
+        if (const LocalOrdinal own = problem.multiplierMap->getLocalElement(number); own >= 0)
+          values[own] += stiffness * area;
+      };
+      add(contact.firstRow + offset, terms.stiffness);
+      for (GlobalOrdinal k = 0; contact.firstFriction >= 0 && k < numTangents; ++k)
+        add(problem.numInequalities + numTangents * (contact.firstFriction + offset) + k, terms.stickSlope);
+    }
+  }
+  for (double& value : values)
+    value = value > 0 ? 1 / value : 0;
+  return compliance;
+}
+
+void setFrictionData(const scene::Scene& scene, const std::vector<contact::ContactLayout>& contacts,
+                     const decomposition::DecomposedProblem& problem, decomposition::ProblemData& data) {
+  std::vector<double> bounds, coefficients;
+  for (const decomposition::FrictionNode& node : problem.frictionNodes) {
+    const GlobalOrdinal number = problem.numberOf(node.contact);
+    double &bound = bounds.emplace_back(0), &coefficient = coefficients.emplace_back(0);
+    for (const contact::ContactLayout& contact : contacts)
+      if (const GlobalOrdinal place = number - contact.firstRow; 0 <= place && place < contact.numRows()) {
+        const scene::SurfaceContact& terms = scene.contacts[contact.number];
+        const std::size_t row = place;
+        bound += terms.frictionBound * contact.portion(row) * contact.areas[row];
+        coefficient += terms.friction * contact.portion(row);
+      }
+  }
+  data.setFrictionBounds(problem, bounds);
+  data.setFrictionCoefficients(problem, coefficients);
+}
+
+} // namespace epafi::model
