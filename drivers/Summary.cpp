@@ -234,8 +234,8 @@ void describeResults(std::ostream& text, const RunResult& result) {
   std::copy_if(result.bodies.begin(), result.bodies.end(), std::back_inserter(elastic),
                [](const simulation::BodyResult& body) { return body.isElastic; });
   describeEach(text, elastic, "body", [&](const simulation::BodyResult& body) {
-    text << "largest displacement " << rounded(body.largestDisplacement) << ", largest von Mises stress "
-         << rounded(body.largestStress);
+    text << "largest displacement " << rounded(body.largestDisplacement) << ", "
+         << simulation::inWords(body.deformation) << ", von Mises stress " << rounded(body.largestStress);
   });
   describeEach(text, result.contacts, "contact",
                [&](const simulation::ContactResult& contact) { describeContact(text, contact); });

@@ -71,6 +71,7 @@ simulation::SceneRun solveAsAsked(const scene::Scene& scene, const std::vector<s
   const auto accuracy = simulation::AccuracyParameters::from(list.sublist("Accuracy"));
   const Teuchos::ParameterList& solver = list.sublist("Solver");
   const simulation::RunOptions options{.estimatesError = accuracy.estimate,
+                                       .requiresSmall = accuracy.requiresSmall,
                                        .quantity = accuracy.quantity,
                                        .facts = {.coarserFrom = accuracy.coarserFrom},
                                        .companion = &watch,

@@ -63,7 +63,9 @@ ModelMaker::ModelMaker(const Deck& deck, std::string mesh)
   for (const Step& step : deck.steps)
     if (step.isNonlinear) {
       model_.notes.push_back(text(step.place) +
-                             ": NLGEOM: displacements are small here: the linear problem is solved");
+                             ": NLGEOM: displacements are taken to be small; if strains or rotations turn "
+                             "out to be above a tenth the run ends with code 1");
+      model_.scene.sublist("Accuracy").set("Small Displacements", true);
       break;
     }
   for (const auto& [name, amplitude] : deck.amplitudes)

@@ -22,6 +22,9 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
       "Estimate Error", defaults.estimate,
       "Whether the discretisation error is estimated at the end, in the energy norm, by a recovered flux "
       "(Zienkiewicz, Zhu 1987).");
+  list.set("Small Displacements", defaults.requiresSmall,
+           "Whether a run whose strains or rotations are above a tenth (10 %, 5.7°), so that small "
+           "displacements are no good model, ends with code 1 and not just with a doubt.");
   addInteger(list, "Coarser Start", static_cast<int>(defaults.coarserFrom),
              "Without a target: elastic scenes with contact and so many unknowns or more look for the "
              "contact zone on a coarser mesh "
@@ -63,6 +66,7 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
 AccuracyParameters AccuracyParameters::from(const Teuchos::ParameterList& list) {
   AccuracyParameters parameters;
   parameters.estimate = list.get<bool>("Estimate Error");
+  parameters.requiresSmall = list.get<bool>("Small Displacements");
   if (const int unknowns = list.get<int>("Coarser Start"); unknowns > 0)
     parameters.coarserFrom = unknowns;
   else

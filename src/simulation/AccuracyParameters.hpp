@@ -15,7 +15,8 @@ namespace epafi::simulation {
 struct AccuracyParameters {
   /// How meshes are refined: where the error is, or everywhere.
   enum class Refinement { local, even };
-  bool estimate = true; ///< whether to estimate the error at the end
+  bool estimate = true;       ///< whether to estimate the error at the end
+  bool requiresSmall = false; ///< whether a run that ends with large strains or rotations has failed
   GlobalOrdinal coarserFrom =
       12000;                   ///< unknowns from which on a coarser mesh is looked at first, without a target
   QuantityParameters quantity; ///< in place of the energy norm

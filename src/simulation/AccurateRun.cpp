@@ -96,6 +96,8 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
         : result.isInterrupted ? RunStatus::interrupted
                                : RunStatus::targetMissed,
         result.run.result);
+  if (accuracy.requiresSmall)
+    requireSmall(result.run.result);
   return result;
 }
 

@@ -185,6 +185,7 @@ std::vector<BodyResult> bodyResults(const SolvedScene& solved, const Evaluation&
     const double largest = stress.empty() ? 0 : *std::max_element(stress.begin(), stress.end());
     result.largestDisplacement = largestDisplacement(solved, b);
     result.largestStress = maxOverRanks(solved.comm(), largest);
+    result.deformation = largestDeformation(solved, b);
   }
   return results;
 }

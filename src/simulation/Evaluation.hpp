@@ -5,6 +5,7 @@
 #include "epafi/accuracy/ErrorEstimate.hpp"
 #include "epafi/fem/HookesLaw.hpp"
 #include "epafi/simulation/ContactState.hpp"
+#include "epafi/simulation/Deformation.hpp"
 #include "epafi/simulation/FrictionResults.hpp"
 #include "epafi/simulation/JointResults.hpp"
 #include "epafi/simulation/SolvedScene.hpp"
@@ -50,6 +51,7 @@ struct BodyResult {
   bool isElastic = false;
   double largestDisplacement = 0; ///< length of the vector; of elastic bodies
   double largestStress = 0;       ///< von Mises', at a node; of elastic bodies
+  Deformation deformation;        ///< of elastic bodies
   bool floats = false;            ///< whether its supports leave it a rigid motion
   int parts = 0, askedParts = 0;  ///< subdomains, and those that METIS was asked for; 0: it was not
 };

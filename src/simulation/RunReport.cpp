@@ -190,12 +190,32 @@ double ErrorResult::relative() const {
   return whole > 0 ? absolute / whole : 0;
 }
 
+std::string largeDeformations(const RunResult& result) {
+  std::string large;
+  for (const BodyResult& body : result.bodies)
+    if (!body.deformation.isSmall())
+      large += (large.empty() ? "" : "; ") + body.name + ": " + inWords(body.deformation);
+  return large.empty() ? large
+                       : "displacements are taken to be small, and are not (" + large +
+                             "): a program for large ones is needed, or smaller loads";
+}
+
+void requireSmall(RunResult& result) {
+  const std::string large = largeDeformations(result);
+  if (large.empty() || result.status != RunStatus::converged)
+    return;
+  result.status = RunStatus::largeDisplacements;
+  result.reason = large;
+}
+
 std::string statusOf(const RunResult& result) {
   switch (result.status) {
   case RunStatus::converged:
     return "Converged";
   case RunStatus::targetMissed:
     return "TargetMissed";
+  case RunStatus::largeDisplacements:
+    return "LargeDisplacements";
   case RunStatus::interrupted:
     return "Interrupted";
   case RunStatus::running:
@@ -224,7 +244,9 @@ ParameterList reportOf(const RunResult& result) {
       list.sublist("Body")
           .sublist(body.name)
           .set("Largest Displacement", body.largestDisplacement)
-          .set("Largest von Mises Stress", body.largestStress);
+          .set("Largest von Mises Stress", body.largestStress)
+          .set("Largest Strain", body.deformation.strain)
+          .set("Largest Rotation", body.deformation.rotation);
   for (const StepResult& step : result.steps)
     enterStep(step, list.sublist("Steps").sublist(step.name));
   if (result.target)

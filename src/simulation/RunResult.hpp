@@ -23,8 +23,10 @@ enum class RunStatus {
   converged,    ///< to all that was asked for
   notConverged, ///< SolveFacts::status says why
   targetMissed, ///< solved, but not as accurately as was asked for
-  interrupted,  ///< by a signal
-  running       ///< on to the next mesh or load step
+  /// Solved, but strains or rotations are so large that the theory does not hold, and this was asked to be told.
+  largeDisplacements,
+  interrupted, ///< by a signal
+  running      ///< on to the next mesh or load step
 };
 
 /// A coarser mesh on which the contact zone was found first.
@@ -94,6 +96,12 @@ struct RunResult {
   RunStatus status = RunStatus::notConverged;
   std::string reason; ///< one sentence
 };
+
+/// A sentence on the bodies whose displacements are not small (Deformation::isSmall); empty if there is none.
+std::string largeDeformations(const RunResult& result);
+
+/// Has a run that converged fail with this sentence.
+void requireSmall(RunResult& result);
 
 /// "Converged", "TargetMissed", "Interrupted", "Running", or what the iteration ended with.
 std::string statusOf(const RunResult& result);

@@ -200,6 +200,8 @@ void evaluateRun(SceneRun& run) {
   result.times.recovery =
       run.solver->times().recovery + maxOverRanks(solved.comm(), Teuchos::Time::wallTime() - began);
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
+  if (const std::string large = largeDeformations(result); !large.empty())
+    result.doubts += (result.doubts.empty() ? "" : ". ") + large;
 }
 
 /// Where the iteration starts: a checkpoint's λ, or the solution on a coarser mesh. Makes the solver and sets
@@ -251,6 +253,8 @@ void solveFrom(const Vector* start, const std::optional<QuantityOfScene>& quanti
     run.result.times.errorEstimate =
         maxOverRanks(*run.decomposition->problem.comm, Teuchos::Time::wallTime() - began);
   evaluateRun(run);
+  if (options.requiresSmall)
+    requireSmall(run.result);
 }
 
 } // namespace

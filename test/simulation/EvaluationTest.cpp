@@ -56,6 +56,24 @@ TEST_F(EvaluationTest, StressOfALinearDisplacementIsExactAtEveryNode) {
     }
 }
 
+TEST_F(EvaluationTest, StrainAndRotationOfALinearDisplacementAreExact) {
+  // ∂u₁/∂x₂ = γ − ω, ∂u₂/∂x₁ = ω: principal strains ±γ/2, and the mean turn ω − γ/2.
+  const double shear = 0.02, turn = 0.3;
+  for (const test::Kind& kind : test::kinds())
+    for (const double size : {1.0, 0.1}) {
+      SCOPED_TRACE(text(kind));
+      const scene::Scene scene = test::stackedBlocks(kind, 3, 1, directory, *comm);
+      const auto decomposition = model::decompose(scene, comm);
+      const auto solution = test::solutionWith(decomposition, [&](const Point& x) {
+        return std::array<double, 3>{1 + size * (shear - turn) * x[1], 2 + size * turn * x[0], 0.0};
+      });
+      const Deformation deformation = largestDeformation({scene, decomposition, solution}, 1);
+      EXPECT_NEAR(deformation.strain, size * shear / 2, 1e-12);
+      EXPECT_NEAR(deformation.rotation, size * (turn - shear / 2), 1e-12);
+      EXPECT_EQ(deformation.isSmall(), size < 1);
+    }
+}
+
 TEST_F(EvaluationTest, ErrorsOfCellsAddUpToTheEstimateAndAreTheSameForEveryCutAndNumberOfRanks) {
   const auto field = [](const Point& x) {
     return std::array<double, 3>{x[0] * x[0] - x[1] * x[2], std::sin(x[0] + 2 * x[1]), x[2] * x[0] * x[1]};
