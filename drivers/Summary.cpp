@@ -248,6 +248,23 @@ void describeResults(std::ostream& text, const RunResult& result) {
   });
 }
 
+/// Components that are round-off beside the largest force of a support are 0.
+void describeSupports(std::ostream& text, std::vector<simulation::SupportResult> supports) {
+  double largest = 0;
+  for (simulation::SupportResult& support : supports) {
+    largest = std::max(largest, lengthOf(support.force));
+    support.name = support.body + ", " + support.name;
+  }
+  constexpr double roundOff = 1e-9;
+  describeEach(text, supports, "support", [&](const simulation::SupportResult& support) {
+    text << "force (";
+    for (const double& part : support.force)
+      text << (&part == support.force.data() ? "" : ", ")
+           << rounded(std::abs(part) > roundOff * largest ? part : 0);
+    text << ')';
+  });
+}
+
 void describeCosts(std::ostream& text, const RunResult& result) {
   const bool isLastOfMany = result.target.has_value();
   text << "  time        " << (isLastOfMany ? "last mesh: " : "") << "assembly "
@@ -271,6 +288,7 @@ std::string summary(const RunResult& result) {
   describeSolution(text, result);
   describeAccuracy(text, result);
   describeResults(text, result);
+  describeSupports(text, result.supports);
   describeCosts(text, result);
   text << "  status      " << simulation::statusOf(result) << ": " << result.reason << '\n';
   return text.str();

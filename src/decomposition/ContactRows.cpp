@@ -186,7 +186,8 @@ ContactRows contactRows(const Substructures& all, const SharedNodes& shared, con
   const std::vector<Place> places = placesOf(all, nodesOf(*contact.rows, all.components));
   const RCP<const CrsMatrix> columns = columnsAt(*contact.rows, all, places);
   const std::vector<double> shares = sharesAt(all, shared, crosspoints, places);
-  ContactRows result{std::vector<std::vector<RowEntry>>(all.size()), Teuchos::null};
+  const std::vector<std::vector<RowEntry>> none(all.size());
+  ContactRows result{none, none, Teuchos::null};
   std::vector<std::pair<GlobalOrdinal, double>> held;
   typename CrsMatrix::local_inds_host_view_type rows;
   typename CrsMatrix::values_host_view_type values;
@@ -204,9 +205,10 @@ ContactRows contactRows(const Substructures& all, const SharedNodes& shared, con
         const GlobalOrdinal row = columns->getColMap()->getGlobalElement(rows(entry));
         if (values(entry) == 0)
           continue;
-        if (free < 0 && shared.isLowest(s, node))
+        if (free < 0 && shared.isLowest(s, node)) {
           held.emplace_back(row, values(entry) * prescribed);
-        else if (free >= 0 && share != 0)
+          result.heldRows[s].push_back({row, static_cast<int>(node) * all.components + c, values(entry)});
+        } else if (free >= 0 && share != 0)
           result.rows[s].push_back({row, free, share * values(entry)});
       }
     }

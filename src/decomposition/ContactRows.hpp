@@ -19,6 +19,8 @@ void requireSound(const ConstraintMatrix& contact, const RCP<const Map>& unknown
 /// multiplier.
 struct ContactRows {
   std::vector<std::vector<RowEntry>> rows; ///< B_I^s of this rank's subdomains
+  /// B_p of this rank's subdomains, those of their positions (nodes × components) that have no unknown.
+  std::vector<std::vector<RowEntry>> heldRows;
   RCP<const Vector> held; ///< what prescribed values contribute to B_I u, on the row map of B_I
 };
 

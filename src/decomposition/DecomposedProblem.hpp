@@ -65,6 +65,20 @@ struct NodeFrame {
   Eigen::Matrix3d axes; ///< a rotation; its columns are the axes. In the plane it turns about z
 };
 
+/// What supports hold of a subdomain, position by position along the nodes' axes: they act on it with the
+/// forces K_p u + B_pᵀλ − f_p, f_p being SubdomainData::heldForces.
+struct HeldRows {
+  struct ConstraintEntry {
+    MultiplierNumber row;
+    int held = 0; ///< place in `positions`
+    double coefficient = 0;
+  };
+  std::vector<int> positions; ///< n_p, ascending
+  std::vector<int> supports;  ///< of each which of its body's supports holds it; −1: none that has a name
+  std::shared_ptr<const SparseMatrix> stiffness; ///< K_p, n_p × all positions
+  std::vector<ConstraintEntry> constraint;       ///< B_p, of a node that subdomains share in the lowest one
+};
+
 /// One subdomain Ω^s. Its *unknowns* are the free values v of its nodes (components a node, supported ones
 /// left out), numbered 0 … n_s − 1 in the order of its nodes; some may stand for averages and deviations.
 struct Subdomain {
@@ -79,6 +93,7 @@ struct Subdomain {
   std::vector<Average> averages;                 ///< where unknowns are no values of nodes; most often none
   std::vector<EdgeEnd> edgeEnds;                 ///< where there are clusters; most often none
   std::vector<ConstraintEntry> constraint;       ///< B^s
+  HeldRows held;                                 ///< empty where nobody asks for what supports hold
   std::vector<int> candidates;                   ///< unknowns that B may come to touch, most often none
   std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
   std::vector<NodeFrame> frames; ///< where positions are not components in space; most often none

@@ -58,6 +58,7 @@ void ProblemData::scaleLoads(double factor) {
   for (SubdomainData& data : subdomains_) {
     data.load *= factor;
     data.heldLoad *= std::abs(factor);
+    data.heldForces *= factor;
     data.heldWork *= factor;
   }
 }
@@ -84,6 +85,8 @@ void ProblemData::setLoad(const DecomposedProblem& problem, std::size_t subdomai
   const Eigen::VectorXd held = heldPart(problem.subdomains[subdomain], forces);
   data.heldLoad = held.lpNorm<1>();
   data.heldWork = held.dot(data.prescribed);
+  if (data.heldForces.size() > 0)
+    data.heldForces = held(problem.subdomains[subdomain].held.positions);
 }
 
 void ProblemData::setGaps(const Vector& gaps) {

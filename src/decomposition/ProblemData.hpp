@@ -20,6 +20,7 @@ struct SubdomainData {
   Eigen::VectorXd reaction;   ///< K_fp u_p, n_s: what prescribed values u_p alone ask of the unknowns
   Eigen::VectorXd prescribed; ///< u_p at each position (nodes × components), 0 at the free ones
   double heldLoad = 0;        ///< sum of the sizes of the loads at prescribed values
+  Eigen::VectorXd heldForces; ///< f_p, as HeldRows::positions; empty where these are
   double heldWork = 0;        ///< f_pᵀu_p
   double heldEnergy = 0;      ///< ½u_pᵀK_pp u_p
 

@@ -156,7 +156,7 @@ private:
   void placeFriction();
   void attach();
   RCP<const Vector> enter(const ConstraintMatrix& matrix, GlobalOrdinal firstRow,
-                          std::vector<GlobalOrdinal>& owned, std::vector<std::vector<RowEntry>>& rows) const;
+                          std::vector<GlobalOrdinal>& owned, std::vector<std::vector<RowEntry>>& rows);
   void refreshData(std::size_t subdomain);
   void requireComplete() const;
 

@@ -30,20 +30,31 @@ void enterRows(const Vector& given, GlobalOrdinal firstRow, Vector& values) {
     values.replaceGlobalValue(firstRow + given.getMap()->getGlobalElement(i), entries[i]);
 }
 
+/// Those of B_p that count what supports hold. \param entries  by positions
+void enterHeld(const std::vector<RowEntry>& entries, GlobalOrdinal firstRow, HeldRows& held) {
+  for (const RowEntry& entry : entries)
+    if (const auto found = std::lower_bound(held.positions.begin(), held.positions.end(), entry.unknown);
+        found != held.positions.end() && *found == entry.unknown)
+      held.constraint.push_back({MultiplierNumber(firstRow + entry.row),
+                                 static_cast<int>(found - held.positions.begin()), entry.coefficient});
+}
+
 } // namespace
 
 /// Appends rows of contact or ties to those of B. Returns what prescribed values contribute. Collective.
 RCP<const Vector> UnassembledProblem::enter(const ConstraintMatrix& matrix, GlobalOrdinal firstRow,
                                             std::vector<GlobalOrdinal>& owned,
-                                            std::vector<std::vector<RowEntry>>& rows) const {
+                                            std::vector<std::vector<RowEntry>>& rows) {
   for (const GlobalOrdinal row : localIndices(*matrix.rows->getRowMap()))
     owned.push_back(firstRow + row);
   ContactRows made = contactRows(view(), shared_, *crosspoints_, matrix);
-  for (std::size_t s = 0; s < rows.size(); ++s)
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    enterHeld(made.heldRows[s], firstRow, problem_.subdomains[s].held);
     for (RowEntry entry : inBasisOf(problem_.subdomains[s].averages, std::move(made.rows[s]))) {
       entry.row += firstRow;
       rows[s].push_back(entry);
     }
+  }
   return made.held;
 }
 
@@ -60,6 +71,8 @@ void UnassembledProblem::attach() {
   std::vector<GlobalOrdinal> ownContact;
   std::vector<std::vector<RowEntry>> rows(nodal_.size());
   RCP<const Vector> heldContact, heldFriction, heldTies;
+  for (Subdomain& subdomain : problem_.subdomains)
+    subdomain.held.constraint.clear();
   if (contact_)
     heldContact = enter(*contact_, 0, ownContact, rows);
   if (friction_)

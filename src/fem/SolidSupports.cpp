@@ -48,7 +48,7 @@ class HeldAxes {
 public:
   /// Takes directionᵀu = value in; returns what the axes before say of directionᵀu where they hold it
   /// already.
-  std::optional<Known> add(const Vector3d& direction, double value) {
+  std::optional<Known> add(const Vector3d& direction, double value, int support) {
     Vector3d rest = direction;
     double known = 0;
     for (std::size_t k = 0; k < axes_.size(); ++k) {
@@ -61,15 +61,25 @@ public:
       return Known{known, 2 * length + 1e-12};
     axes_.emplace_back(rest / length);
     values_.push_back((value - known) / length);
+    supports_.push_back(support);
     return std::nullopt;
   }
   [[nodiscard]] std::span<const Vector3d> axes() const { return axes_; }
   [[nodiscard]] std::span<const double> values() const { return values_; }
+  [[nodiscard]] std::span<const int> supports() const { return supports_; }
 
 private:
   std::vector<Vector3d> axes_;
   std::vector<double> values_;
+  std::vector<int> supports_;
 };
+
+/// Its place, or −1 if it is none of these.
+int numberOf(const SolidSupport& support, const std::vector<SolidSupport>& supports) {
+  const auto found = std::find_if(supports.begin(), supports.end(),
+                                  [&](const SolidSupport& one) { return &one == &support; });
+  return found == supports.end() ? -1 : static_cast<int>(found - supports.begin());
+}
 
 } // namespace
 
@@ -119,7 +129,8 @@ std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBod
 void SolidSupports::hold(const SolidBody& body, std::span<const Condition> conditions) {
   HeldAxes held;
   for (const Condition& condition : conditions) {
-    const std::optional<Known> known = held.add(condition.direction, condition.value);
+    const std::optional<Known> known =
+        held.add(condition.direction, condition.value, numberOf(*condition.support, body.solid.supports));
     if (!known)
       continue;
     double scale = std::abs(condition.value);
@@ -134,30 +145,33 @@ void SolidSupports::hold(const SolidBody& body, std::span<const Condition> condi
                                           (condition.support->axes ? "" : ", the normal of the surface,")) +
           " at different values, " + text(known->value) + " and " + text(condition.value));
   }
-  holdInFrame(conditions.front().node, body.components(), held.axes(), held.values());
+  holdInFrame(conditions.front().node, body.components(), held.axes(), held.values(), held.supports());
 }
 
-/// Where the axes are those of space, or hold the node altogether, its unknowns stay the components in space.
+/// Where the axes are those of space, or hold the node altogether, its unknowns stay the components in space,
+/// each held by the support whose axis is nearest to it.
 void SolidSupports::holdInFrame(GlobalOrdinal node, int components, std::span<const Vector3d> axes,
-                                std::span<const double> values) {
+                                std::span<const double> values, std::span<const int> supports) {
   const bool isAlong =
       std::all_of(axes.begin(), axes.end(), [](const Vector3d& axis) { return axisOf(axis) >= 0; });
   if (isAlong || std::ssize(axes) == components) {
-    Vector3d value(0, 0, 0), isHeld(0, 0, 0);
-    for (std::size_t k = 0; k < axes.size(); ++k) {
+    Vector3d value(0, 0, 0);
+    for (std::size_t k = 0; k < axes.size(); ++k)
       value += values[k] * axes[k];
-      if (isAlong)
-        isHeld[axisOf(axes[k])] = 1;
+    for (int c = 0; c < components; ++c) {
+      const auto nearest =
+          std::max_element(axes.begin(), axes.end(), [c](const Vector3d& a, const Vector3d& b) {
+            return std::abs(a[c]) < std::abs(b[c]);
+          });
+      if (!isAlong || axisOf(*nearest) == c)
+        held_.push_back({node, c, value[c], supports[nearest - axes.begin()]});
     }
-    for (int c = 0; c < components; ++c)
-      if (!isAlong || isHeld[c] == 1)
-        held_.push_back({node, c, value[c]});
     return;
   }
   Eigen::Matrix3d frame;
   int numAxes = 0;
   for (const Vector3d& axis : axes) {
-    held_.push_back({node, numAxes, values[numAxes]});
+    held_.push_back({node, numAxes, values[numAxes], supports[numAxes]});
     frame.col(numAxes++) = axis;
   }
   while (numAxes < 3) { // the axis of space that is farthest from those so far, z last in the plane
@@ -196,7 +210,7 @@ void SolidSupports::values(std::span<const GlobalOrdinal> nodes, std::vector<Pre
       values.push_back(
           {static_cast<std::size_t>(node - nodes.begin()) * static_cast<std::size_t>(components_) +
                static_cast<std::size_t>(held->component),
-           held->value});
+           held->value, held->support});
   }
 }
 

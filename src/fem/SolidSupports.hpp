@@ -19,6 +19,7 @@ namespace epafi::fem {
 struct PrescribedValue {
   std::size_t position = 0;
   double value = 0;
+  int support = -1; ///< which of the solid's; −1: the axis of revolution
 };
 
 class SolidSupports {
@@ -47,6 +48,7 @@ private:
     GlobalOrdinal node;
     int component;
     double value;
+    int support;
   };
   /// directionᵀu = value at a node, as a support says.
   struct Condition {
@@ -59,8 +61,9 @@ private:
 
   [[nodiscard]] static std::vector<Condition> conditionsOf(const SolidBody& body);
   void hold(const SolidBody& body, std::span<const Condition> conditions);
+  /// \param supports  which hold the axes
   void holdInFrame(GlobalOrdinal node, int components, std::span<const Eigen::Vector3d> axes,
-                   std::span<const double> values);
+                   std::span<const double> values, std::span<const int> supports);
 
   int components_;
   std::vector<Held> held_;                                        ///< ascending by node and component

@@ -1,5 +1,6 @@
 #include "epafi/fem/SubdomainAssembly.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -86,9 +87,12 @@ void SubdomainAssembler::hold(AssembledSubdomain& subdomain) {
   subdomain.unknownOf.assign(numPositions, 0);
   subdomain.data.prescribed.setZero(numPositions);
   model_.prescribed(subdomain.nodes, prescribed_);
-  for (const auto& [position, value] : prescribed_) {
+  subdomain.held = {};
+  for (const auto& [position, value, support] : prescribed_) {
     subdomain.unknownOf[position] = -1;
     subdomain.data.prescribed[position] = value;
+    subdomain.held.positions.push_back(static_cast<int>(position));
+    subdomain.held.supports.push_back(support);
   }
   subdomain.unknownPosition.clear();
   subdomain.unknownPosition.reserve(numPositions);
@@ -134,12 +138,15 @@ void SubdomainAssembler::addLoads(const LocalNumbering& numbering, AssembledSubd
     }
 }
 
-/// What the supports hold: reactions and energies.
+/// What the supports hold: reactions, energies, and K_p and f_p.
 void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const StiffnessPattern& pattern,
                                    AssembledSubdomain& subdomain) {
   decomposition::SubdomainData& data = subdomain.data;
   data.reaction.setZero(data.load.size());
   data.heldWork = data.heldEnergy = 0;
+  const std::vector<int>& positions = subdomain.held.positions;
+  data.heldForces.setZero(std::ssize(positions));
+  entries_.clear();
   for (const std::size_t e : pattern.supportedElements()) {
     const std::span<const int> nodes = numbering.elementNodes(e);
     const auto positionOf = [&](Eigen::Index value) {
@@ -148,6 +155,15 @@ void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const Stiffn
     };
     const auto heldAt = [&](std::size_t position) { return data.prescribed[position]; };
     const Eigen::MatrixXd& k = stiffnessOf(kinds_[e]);
+    for (Eigen::Index i = 0; i < k.rows(); ++i) {
+      if (subdomain.unknownOf[positionOf(i)] >= 0)
+        continue;
+      const auto row =
+          std::lower_bound(positions.begin(), positions.end(), positionOf(i)) - positions.begin();
+      data.heldForces[row] += loads_(i, e);
+      for (Eigen::Index j = 0; j < k.cols(); ++j)
+        entries_.emplace_back(static_cast<int>(row), static_cast<int>(positionOf(j)), k(i, j));
+    }
     for (Eigen::Index j = 0; j < k.cols(); ++j) {
       const double held = heldAt(positionOf(j)); // 0 at the free positions
       if (held == 0)
@@ -162,6 +178,9 @@ void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const Stiffn
       }
     }
   }
+  decomposition::SparseMatrix rows(std::ssize(positions), std::ssize(subdomain.unknownOf));
+  rows.setFromTriplets(entries_.begin(), entries_.end());
+  subdomain.held.stiffness = std::make_shared<const decomposition::SparseMatrix>(std::move(rows));
 }
 
 AssembledSubdomain assemble(const BodyModel& model, std::span<const GlobalOrdinal> elements) {

@@ -26,6 +26,7 @@ struct AssembledSubdomain {
   std::vector<int> unknownOf;       ///< unknown at each position, −1 where supported
   Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness;
   decomposition::SubdomainData data;
+  decomposition::HeldRows held; ///< but B_p
   Eigen::MatrixXd kernel;
 };
 
@@ -63,6 +64,7 @@ private:
   std::vector<int> numElementsAt_;
   std::vector<PrescribedValue> prescribed_;
   Eigen::MatrixXd loads_;
+  std::vector<Eigen::Triplet<double, int>> entries_;
   GlobalOrdinal kindAtHand_ = -1; ///< kind whose stiffness is at hand; −1 none
   Eigen::MatrixXd stiffness_;
 };

@@ -126,6 +126,7 @@ void addSubdomains(const scene::Scene& scene, const std::vector<BodyLayout>& bod
     subdomain.unknownPosition = std::move(values.unknownPosition);
     subdomain.frames = framesOf(*models[b], subdomain.nodes);
     subdomain.kernel = std::move(values.kernel);
+    subdomain.held = std::move(values.held);
     if (models[b]->components() > 1) // of a scalar field R = 1, and nothing can go wrong
       requireKernel(*nodal.stiffness, subdomain.kernel, bodies[b].name);
     problem.add(std::move(subdomain), std::move(values.data), std::move(nodal));

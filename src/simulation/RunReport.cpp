@@ -138,6 +138,15 @@ void enterTie(const TieResult& tie, ParameterList& list) {
   enterBalance(tie.balance, list);
 }
 
+void enterSupports(const std::vector<SupportResult>& supports, ParameterList& list) {
+  for (const SupportResult& support : supports)
+    list.sublist("Support")
+        .sublist(support.body)
+        .sublist(support.name)
+        .set("Force", arrayOf(support.force))
+        .set("Moment", arrayOf(support.moment));
+}
+
 void enterStep(const StepResult& step, ParameterList& list) {
   list.set("Hessian Multiplications", step.multiplications)
       .set("Strain Energy", step.strainEnergy)
@@ -147,6 +156,7 @@ void enterStep(const StepResult& step, ParameterList& list) {
       .set("Reason", step.reason);
   for (const ContactResult& contact : step.contacts)
     enterContact(contact, list.sublist("Contact").sublist(contact.name));
+  enterSupports(step.supports, list);
 }
 
 void enterMesh(const accuracy::MeshResult& mesh, ParameterList& list) {
@@ -239,6 +249,7 @@ ParameterList reportOf(const RunResult& result) {
     enterContact(contact, list.sublist("Contact").sublist(contact.name));
   for (const TieResult& tie : result.ties)
     enterTie(tie, list.sublist("Tied").sublist(tie.name));
+  enterSupports(result.supports, list);
   for (const BodyResult& body : result.bodies)
     if (body.isElastic)
       list.sublist("Body")

@@ -8,6 +8,7 @@
 #include "epafi/simulation/Evaluation.hpp"
 #include "epafi/simulation/JointResults.hpp"
 #include "epafi/simulation/Quantity.hpp"
+#include "epafi/simulation/SupportResults.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 
@@ -23,7 +24,7 @@ enum class RunStatus {
   converged,    ///< to all that was asked for
   notConverged, ///< SolveFacts::status says why
   targetMissed, ///< solved, but not as accurately as was asked for
-  /// Solved, but strains or rotations are so large that the theory does not hold, and this was asked to be told.
+  /// Solved, but strains or rotations are so large that the theory does not hold, where it was to hold.
   largeDisplacements,
   interrupted, ///< by a signal
   running      ///< on to the next mesh or load step
@@ -69,6 +70,7 @@ struct StepResult {
   /// ½uᵀKu, fᵀu (f with the forces of hindered expansion), and what friction took in the step.
   double strainEnergy = 0, loadWork = 0, dissipation = 0;
   std::vector<ContactResult> contacts;
+  std::vector<SupportResult> supports;
   RunStatus status = RunStatus::notConverged;
   std::string reason; ///< one sentence
 };
@@ -90,6 +92,7 @@ struct RunResult {
   bool choosesClusters = false; ///< whether some body's clusters were left to choose
   std::vector<ContactResult> contacts;
   std::vector<TieResult> ties;
+  std::vector<SupportResult> supports;
   std::vector<StepResult> steps; ///< in their order, the last one too; none where the scene has none
   std::optional<TargetResult> target;
   RunTimes times;
@@ -107,7 +110,7 @@ void requireSmall(RunResult& result);
 std::string statusOf(const RunResult& result);
 
 /// The report of a run: the lists Epafi, Problem, Algorithm, Plan, Iterations, Accuracy, Start, Quantity,
-/// Body, Contact, Tied, Levels, Time, Memory and Status, as far as there is something to say.
+/// Body, Contact, Tied, Support, Levels, Time, Memory and Status, as far as there is something to say.
 Teuchos::ParameterList reportOf(const RunResult& result);
 
 } // namespace epafi::simulation

@@ -191,6 +191,7 @@ void evaluateRun(SceneRun& run) {
   RunResult& result = run.result;
   result.contacts = contactResults(solved, run.evaluation);
   result.ties = tieResults(solved);
+  result.supports = supportResults(solved);
   result.bodies = bodyResults(solved, run.evaluation);
   result.choosesClusters =
       std::any_of(run.scene.bodies.begin(), run.scene.bodies.end(),

@@ -31,6 +31,7 @@ StepResult resultOf(const std::string& name, RunResult& result) {
           result.loadWork,
           dissipation,
           result.contacts,
+          result.supports,
           result.status,
           result.reason};
 }

@@ -1,0 +1,137 @@
+// What supports hold: forces known by hand, balance with loads and contacts, whatever the cut and the ranks.
+
+#include "support/SolidScenes.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/scene/ModelProblem.hpp"
+#include "epafi/simulation/RunResult.hpp"
+#include "epafi/simulation/SceneRun.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace epafi::simulation {
+namespace {
+
+using Load = fem::SolidLoad::Kind;
+
+class SupportResultsTest : public testing::Test {
+protected:
+  [[nodiscard]] std::vector<SupportResult> supports(const scene::Scene& scene) const {
+    Teuchos::ParameterList solver;
+    solver.set("Tolerance", 1e-12);
+    return solveScene(scene, solver, comm_).result.supports;
+  }
+  static void expectNear(const std::array<double, 3>& value, const std::array<double, 3>& expected,
+                         double upTo) {
+    for (std::size_t d = 0; d < 3; ++d)
+      EXPECT_NEAR(value[d], expected[d], upTo) << d;
+  }
+  RCP<const Comm> comm_ = Tpetra::getDefaultComm();
+};
+
+scene::Body cube(const scene::Decomposition& cut = test::cutByMetis(3)) {
+  return test::block("cube", {{0, 0, 0}, {2, 1, 1}}, {4, 2, 2}, cut);
+}
+
+TEST_F(SupportResultsTest, AClampHoldsForceAndMomentOfTheLoads) {
+  scene::Scene scene;
+  scene.bodies = {cube()};
+  scene.bodies[0].supports = {{"clamp", "left", {0.0, 0.0, 0.0}}};
+  scene.bodies[0].loads = {{"pull", Load::traction, {}, "right", {}, {3, 5, 7}},
+                           test::weight({0, 0, -2}),
+                           {"at the clamp", Load::traction, {}, "left", {}, {11, 0, 13}}};
+  for (const auto& cut : {test::cutByMetis(1), test::cutByMetis(3), test::cutInGrid({2, 1, 2})}) {
+    scene.bodies[0].decomposition = cut;
+    const std::vector<SupportResult> held = supports(scene);
+    ASSERT_EQ(held.size(), 1U);
+    EXPECT_EQ(held[0].body + '/' + held[0].name, "cube/clamp");
+    expectNear(held[0].force, {-14, -5, -16}, 1e-9);
+    // Resultants act at (2, ½, ½), (1, ½, ½) and (0, ½, ½).
+    const double x = 0.5 * 7 - 0.5 * 5, y = 0.5 * 3 - 2 * 7, z = 2 * 5 - 0.5 * 3;
+    expectNear(held[0].moment, {-(x - 0.5 * 4 + 0.5 * 13), -(y + 4 + 0.5 * 11), -(z - 0.5 * 11)}, 1e-9);
+  }
+}
+
+TEST_F(SupportResultsTest, PrescribedDisplacementsAreHeldByWhatTheyStrain) {
+  scene::Scene scene;
+  scene.bodies = {cube()};
+  scene.bodies[0].supports = {
+      test::slide("left"), test::slide("front"), test::slide("bottom"), {"stretch", "right", {0.02, {}, {}}}};
+  const std::vector<SupportResult> held = supports(scene); // E ε = 200 · 0.01 on an area of 1
+  expectNear(held[0].force, {-2, 0, 0}, 1e-9);
+  expectNear(held[1].force, {0, 0, 0}, 1e-9);
+  expectNear(held[2].force, {0, 0, 0}, 1e-9);
+  expectNear(held[3].force, {2, 0, 0}, 1e-9);
+  expectNear(held[3].moment, {0, 1, -1}, 1e-9);
+}
+
+TEST_F(SupportResultsTest, SupportsInAxesOfTheirOwnHoldAlongThem) {
+  const double c = std::cos(0.4), s = std::sin(0.4);
+  scene::Scene scene;
+  scene.bodies = {cube()};
+  fem::SolidSupport along{"along", "left", {0.0, {}, {}}},
+      across{"across", "right", {std::nullopt, 0.0, std::nullopt}};
+  along.axes = across.axes = fem::LocalAxes{false, {c, s, 0}, {-s, c, 0}};
+  scene.bodies[0].supports = {along, across, test::slide("bottom")};
+  scene.bodies[0].loads = {{"pull", Load::traction, {}, "right", {}, {3, 1, 0}}};
+  const std::vector<SupportResult> held = supports(scene);
+  const double alongs = 3 * c + s, acrosses = c - 3 * s;
+  expectNear(held[0].force, {-alongs * c, -alongs * s, 0}, 1e-9);
+  expectNear(held[1].force, {acrosses * s, -acrosses * c, 0}, 1e-9);
+}
+
+TEST_F(SupportResultsTest, ABodyOnAnotherOneHandsItsLoadDownAlsoWhereContactMeetsWhatIsHeld) {
+  for (const int dimension : {2, 3})
+    for (const std::optional<double> friction : {std::optional<double>(), std::optional(0.4)}) {
+      SCOPED_TRACE(std::to_string(dimension) + (friction ? " with friction" : ""));
+      const int up = dimension - 1, across = dimension == 3 ? 2 : 0;
+      mesh::Box lower{{0, 0, 0}, {1, 1, 1}}, upper{{0, 0, 0}, {1, 1, 1}};
+      if (dimension == 2)
+        lower.upper[2] = upper.upper[2] = 0;
+      upper.lower[up] = 1;
+      upper.upper[up] = 2;
+      scene::Scene scene;
+      scene.bodies = {test::block("lower", lower, {2, 2, across}, test::cutByMetis(2)),
+                      test::block("upper", upper, {3, 3, across == 0 ? 0 : 3}, test::cutByMetis(2))};
+      // All nodes of the lower one's left side are held, those in contact too.
+      scene.bodies[0].supports = {{"base", "bottom", {0.0, 0.0, 0.0}}, {"side", "left", {0.0, 0.0, 0.0}}};
+      scene.bodies[1].supports = {test::slide("left")};
+      if (dimension == 3)
+        scene.bodies[1].supports.push_back(test::slide("front"));
+      scene.bodies[1].loads = {{"press", Load::pressure, {}, "top", {}, {6, 0, 0}}};
+      scene.contacts = {test::between("joint", 0, "top", 1, "bottom")};
+      if (friction)
+        scene.contacts[0].friction = *friction;
+      const std::vector<SupportResult> held = supports(scene);
+      std::array<double, 3> sum{};
+      for (const SupportResult& support : held)
+        for (std::size_t d = 0; d < 3; ++d)
+          sum[d] += support.force[d];
+      std::array<double, 3> expected{};
+      expected[up] = 6;
+      expectNear(sum, expected, 1e-8);
+      EXPECT_GT(held[1].force[up], 0.1); // the held side carries a part of it
+    }
+}
+
+TEST_F(SupportResultsTest, MembranesAreHeldAlongZ) {
+  const scene::Scene scene = scene::modelProblem(true, 2, 4);
+  const SceneRun run = solveScene(scene, {}, comm_);
+  double sum = 0, loads = 0;
+  for (const SupportResult& support : run.result.supports)
+    sum += support.force[2];
+  for (const decomposition::SubdomainData& data : run.decomposition->data.subdomains())
+    loads += data.load.sum() + data.heldForces.sum();
+  loads = sumOverRanks(*comm_, loads);
+  EXPECT_GT(std::abs(loads), 0.1);
+  EXPECT_NEAR(sum, -loads, 1e-6);
+}
+
+} // namespace
+} // namespace epafi::simulation
