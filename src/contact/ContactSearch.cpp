@@ -28,7 +28,10 @@ Approach approachTo(const Obstacle& obstacle, const Vector3d& point, int dimensi
     offset[2] = 0;
   if (obstacle.kind == Obstacle::Kind::plane)
     return {-obstacle.normal, obstacle.normal.dot(offset)};
-  return {-offset.normalized(), offset.norm() - obstacle.radius};
+  if (obstacle.kind == Obstacle::Kind::cylinder)
+    offset -= obstacle.normal.dot(offset) * obstacle.normal;
+  const double outwards = obstacle.isHollow ? -1 : 1;
+  return {-outwards * offset.normalized(), outwards * (offset.norm() - obstacle.radius)};
 }
 
 void addRow(const Vector3d& direction, double gap, int components, ContactLayout& layout) {
@@ -69,7 +72,7 @@ ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& firs
     if (gap > contact.distance)
       continue;
     isAnyNear = true;
-    if (direction.norm() < 0.5) // a node in the centre of a sphere has no nearest point
+    if (direction.norm() < 0.5) // there is no nearest point
       throw refusal(contact, "the node at " + text(first.points[i]) +
                                  " lies in the centre of the obstacle; move the obstacle");
     if (first.normals[i].dot(direction) <= 0 || isSpringless(contact, areas, first, i))
@@ -82,7 +85,8 @@ ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& firs
     throw refusal(contact, "the surface '" + contact.firstSurface + "' faces away from the obstacle; " +
                                (obstacle.kind == Obstacle::Kind::plane
                                     ? "does the obstacle's normal point to the body?"
-                                    : "is the centre of the obstacle inside the body?"));
+                                : obstacle.isHollow ? "is the body inside of the obstacle?"
+                                                    : "is the centre of the obstacle inside the body?"));
   requireRows(contact, layout);
   return layout;
 }

@@ -20,14 +20,16 @@
 
 namespace epafi::contact {
 
-/// A rigid obstacle that does not move: a half-space, or a circle (in the plane) or sphere.
+/// A rigid obstacle that does not move: a half-space, or a circle (in the plane), sphere or cylinder, outside
+/// or inside of which bodies are.
 struct Obstacle {
   /// A circle is a sphere in the plane.
-  enum class Kind { plane, sphere };
+  enum class Kind { plane, sphere, cylinder };
   Kind kind = Kind::plane;
-  Eigen::Vector3d point{0, 0, 0};  ///< on the plane; centre of the sphere
-  Eigen::Vector3d normal{0, 0, 1}; ///< of the plane, of length 1, towards the body
-  double radius = 1;               ///< of the sphere
+  Eigen::Vector3d point{0, 0, 0};  ///< on the plane or axis; centre of the sphere
+  Eigen::Vector3d normal{0, 0, 1}; ///< of the plane towards the body, or along the axis, of length 1
+  double radius = 1;               ///< of the sphere or cylinder
+  bool isHollow = false;           ///< a bore or a cup, with the body inside
 };
 
 /// The rows of nodes that an obstacle may stop; bodies and `firstRow` are left to the caller. \throws

@@ -35,10 +35,11 @@ bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLa
 
 contact::Obstacle obstacleOf(const scene::Obstacle& obstacle) {
   using Kind = contact::Obstacle::Kind;
-  return {obstacle.kind == scene::Obstacle::Kind::plane ? Kind::plane : Kind::sphere,
+  return {static_cast<Kind>(obstacle.kind),
           {obstacle.point[0], obstacle.point[1], obstacle.point[2]},
           {obstacle.normal[0], obstacle.normal[1], obstacle.normal[2]},
-          obstacle.radius};
+          obstacle.radius,
+          obstacle.isHollow};
 }
 
 } // namespace

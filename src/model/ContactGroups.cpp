@@ -7,6 +7,7 @@
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +76,11 @@ bool areSame(const scene::Obstacle& a, const scene::Obstacle& b) {
   if (a.kind == scene::Obstacle::Kind::plane)
     return (asVector(a.normal) - asVector(b.normal)).norm() <= same &&
            std::abs(asVector(a.normal).dot(apart)) <= same * size;
-  return apart.norm() <= same * size && std::abs(a.radius - b.radius) <= same * size;
+  const Vector3d axis = asVector(a.normal);
+  const bool isCylinder = a.kind == scene::Obstacle::Kind::cylinder;
+  return (isCylinder ? axis.cross(apart) : apart).norm() <= same * size &&
+         (!isCylinder || axis.cross(asVector(b.normal)).norm() <= same) && a.isHollow == b.isHollow &&
+         std::abs(a.radius - b.radius) <= same * size;
 }
 
 class Groups {

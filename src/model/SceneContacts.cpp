@@ -57,7 +57,7 @@ void dropRoundOff(const scene::SurfaceContact& terms, const std::vector<BodyLayo
   if (contact.secondBody < 0) {
     for (const double coordinate : terms.obstacle.point)
       largest = std::max(largest, std::abs(coordinate));
-    if (terms.obstacle.kind == scene::Obstacle::Kind::sphere)
+    if (terms.obstacle.kind != scene::Obstacle::Kind::plane)
       largest = std::max(largest, terms.obstacle.radius);
   }
   for (double& gap : contact.gaps)

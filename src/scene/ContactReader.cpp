@@ -34,19 +34,27 @@ NamedObstacle readObstacle(const std::string& name, const ListReader& list) {
   const std::string& kind = list.word("Kind");
   const std::string useless = "an obstacle of the kind \"" + kind + "\" has no use for it";
   result.dimension = kind == "plane" ? std::clamp(list.length("Point"), 2, 3) : kind == "circle" ? 2 : 3;
+  if (kind == "cylinder" && list.length("Point") == 2)
+    list.refuseValue("Kind", "a bore or a roller in the plane is a \"circle\"");
   if (kind == "sphere" && list.length("Point") == 2)
     list.refuseValue("Kind", "a centre of two coordinates is that of a \"circle\"");
   result.obstacle.point = list.vector("Point", result.dimension);
   if (kind == "plane") {
-    list.refuseGiven({"Radius"}, useless);
+    list.refuseGiven({"Radius", "Axis", "Side"}, useless);
     list.require("Normal", " of a plane");
-    result.obstacle.kind = Obstacle::Kind::plane;
     result.obstacle.normal = direction(list, "Normal", result.dimension);
+    return result;
+  }
+  list.refuseGiven({"Normal"}, useless);
+  list.require("Radius", " of a " + kind);
+  result.obstacle.kind = kind == "cylinder" ? Obstacle::Kind::cylinder : Obstacle::Kind::sphere;
+  result.obstacle.radius = list.positive("Radius");
+  result.obstacle.isHollow = list.word("Side") == "inside";
+  if (kind == "cylinder") {
+    list.require("Axis", " of a cylinder");
+    result.obstacle.normal = direction(list, "Axis", result.dimension);
   } else {
-    list.refuseGiven({"Normal"}, useless);
-    list.require("Radius", " of a " + kind);
-    result.obstacle.kind = Obstacle::Kind::sphere;
-    result.obstacle.radius = list.positive("Radius");
+    list.refuseGiven({"Axis"}, useless);
   }
   return result;
 }

@@ -14,11 +14,12 @@ namespace epafi::scene {
 /// A rigid obstacle that does not move: a half-space, or a circle (in the plane) or sphere.
 struct Obstacle {
   /// A circle is a sphere in the plane.
-  enum class Kind { plane, sphere };
+  enum class Kind { plane, sphere, cylinder };
   Kind kind = Kind::plane;
-  Vector3 point{0, 0, 0};  ///< on the plane; centre of the sphere
-  Vector3 normal{0, 0, 1}; ///< of the plane, of length 1, towards the body
-  double radius = 1;       ///< of the sphere
+  Vector3 point{0, 0, 0};  ///< on the plane or axis; centre of the sphere
+  Vector3 normal{0, 0, 1}; ///< of the plane towards the body, or along the axis, of length 1
+  double radius = 1;       ///< of the sphere or cylinder
+  bool isHollow = false;   ///< a bore or a cup, with the body inside
 };
 
 /// Contact of a body's surface with another body's or with an obstacle, or a joint of two bodies.

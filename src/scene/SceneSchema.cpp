@@ -219,15 +219,20 @@ void describeBody(ParameterList& bodies) {
 void describeObstacle(ParameterList& obstacles) {
   ParameterList& obstacle = obstacles.sublist("<obstacle>", false, "One obstacle, which does not move.");
   addChoice(obstacle, "Kind", "",
-            "A half-space, a circle (in the plane) or a sphere. Axisymmetric bodies meet planes "
-            "y = constant, and spheres as circles about a point of the axis.",
-            {"plane", "circle", "sphere"});
-  addArray(obstacle, "Point", Array<double>(), "A point on the plane, or the centre: {x, y} or {x, y, z}.",
-           "");
+            "A half-space, a circle (in the plane), a sphere or an endless cylinder. Axisymmetric bodies "
+            "meet planes y = constant, and spheres as circles about a point of the axis.",
+            {"plane", "circle", "sphere", "cylinder"});
+  addArray(obstacle, "Point", Array<double>(),
+           "A point on the plane or the cylinder's axis, or the centre: {x, y} or {x, y, z}.", "");
   setRequired(obstacle, {"Kind", "Point"});
   addArray(obstacle, "Normal", Array<double>(),
            "Plane, required: its normal {x, y} or {x, y, z} towards the body, of any length.", "");
-  addReal(obstacle, "Radius", 1.0, "Circle and sphere, required: the radius.", 0.0, infinity, true);
+  addArray(obstacle, "Axis", Array<double>(), "Cylinder, required: {x, y, z} along its axis, of any length.",
+           "");
+  addReal(obstacle, "Radius", 1.0, "Circle, sphere and cylinder, required: the radius.", 0.0, infinity, true);
+  addChoice(obstacle, "Side", "outside",
+            "Circle, sphere and cylinder: where the body is. inside: the obstacle is a bore or a cup.",
+            {"outside", "inside"});
 }
 
 void describePair(ParameterList& contact) {

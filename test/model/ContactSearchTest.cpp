@@ -144,6 +144,26 @@ TEST(ContactSearchTest, ObstaclesHaveTheGapOfTheirGeometry) {
     EXPECT_NEAR(gap, 0.2, 1e-15);
 }
 
+TEST(ContactSearchTest, HollowsHaveTheGapToTheirWall) {
+  std::vector<BodyLayout> bodies;
+  bodies.push_back(box("block", {{-1, 0, 0}, {1, 1, 2}}, {8, 2, 4}));
+  scene::SurfaceContact contact = topOnBottom();
+  contact.second = -1;
+  contact.obstacle = {scene::Obstacle::Kind::cylinder, {0, 7, -2}, {0, 1, 0}, 5, true};
+  const ContactLayout all = layoutContact(contact, bodies, 3);
+  ASSERT_EQ(all.numRows(), 27);
+  for (std::size_t row = 0; row < 27; ++row) {
+    const Point x = bodies[0].mesh->point(all.firstNodes[row]);
+    const double distance = std::hypot(x[0], x[2] + 2);
+    EXPECT_NEAR(all.gaps[row], 5 - distance, 1e-14);
+    EXPECT_NEAR(all.directions[3 * row], x[0] / distance, 1e-14); // outwards
+    EXPECT_NEAR(all.directions[3 * row + 1], 0, 1e-14);
+    EXPECT_NEAR(all.directions[3 * row + 2], (x[2] + 2) / distance, 1e-14);
+  }
+  contact.obstacle.point[2] = 5; // the wall is nearer on the other side
+  EXPECT_NE(complaint(contact, bodies, 3).find("is the body inside of the obstacle?"), std::string::npos);
+}
+
 TEST(ContactSearchTest, SaysWhyNothingMeets) {
   std::vector<BodyLayout> bodies;
   bodies.push_back(box("block", mesh::rectangle(-1, 1, 0, 1), {8, 2, 0}));

@@ -239,6 +239,21 @@ TEST(SolidReaderTest, ReadsObstaclesWithNormalsOfLengthOne) {
   EXPECT_EQ(ball.gap, -0.1);
 }
 
+TEST(SolidReaderTest, AHollowCylinderHasAnAxisAndASide) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& floor = list.sublist("Obstacles").sublist("floor");
+  floor = ParameterList();
+  floor.set("Kind", "cylinder").set("Point", numbers({0, 0, 3})).set("Radius", 3.0).set("Side", "inside");
+  EXPECT_THROW(scene::readScene(list, "a.xml"), InputError); // no axis
+  floor.set("Axis", numbers({0, 2, 0}));
+  const scene::Obstacle bore = scene::readScene(list, "a.xml").contacts.at(0).obstacle;
+  EXPECT_EQ(bore.kind, scene::Obstacle::Kind::cylinder);
+  EXPECT_EQ(bore.normal, (Vector3{0, 1, 0}));
+  EXPECT_TRUE(bore.isHollow);
+  floor.set("Kind", "sphere");
+  EXPECT_THROW(scene::readScene(list, "a.xml"), InputError); // which has no axis
+}
+
 TEST(SolidReaderTest, ASphereInThePlaneIsACircle) {
   const std::string text = solidRefusal([](ParameterList& list) {
     list.sublist("Obstacles")

@@ -102,6 +102,35 @@ TEST(ContactNodesTest, ASingleRowThatCarriesTheLoadIsClosed) {
   EXPECT_NEAR(run.solution.contactForce, 1, 1e-9);
 }
 
+/// Weight in a bore or a cup that meets the lower corners, at 45° or along the diagonal of a cube.
+TEST(ContactNodesTest, ABodyInAHollowStandsOnItsCorners) {
+  using Kind = scene::Obstacle::Kind;
+  for (const auto& [dimension, kind, corners] :
+       {std::tuple(2, Kind::sphere, 2), std::tuple(3, Kind::cylinder, 4), std::tuple(3, Kind::sphere, 4)})
+    for (const int order : {1, 2}) {
+      SCOPED_TRACE(testing::Message() << dimension << "-D, " << corners << " corners, order " << order);
+      const double half = 1, across = kind == Kind::sphere && dimension == 3 ? std::sqrt(3) : std::sqrt(2);
+      const bool isPlane = dimension == 2;
+      scene::Scene scene;
+      scene.bodies = {block("block", {{-half, -half, isPlane ? 0 : -half}, {half, half, isPlane ? 0 : half}},
+                            {2, 2, isPlane ? 0 : 2}, cutInGrid({2, 1, 1}))};
+      scene.bodies[0].mesh.order = order;
+      scene.bodies[0].supports = {{"guide", "top", {0.0, {}, {}}}};
+      if (!isPlane)
+        scene.bodies[0].supports[0].value[1] = 0.0;
+      scene.bodies[0].loads = {weight(isPlane ? Vector3{0, -1, 0} : Vector3{0, 0, -1})};
+      scene.contacts = {onPlane("hollow", 0, "bottom", {0, 0, 0}, {0, 1, 0})}; // the cylinder's axis: y
+      scene.contacts[0].obstacle.kind = kind;
+      scene.contacts[0].obstacle.radius = across;
+      scene.contacts[0].obstacle.isHollow = true;
+      const SolidRun run(scene);
+      const double load = isPlane ? 4 : 8;
+      EXPECT_NEAR(run.solution.contactForce, load * across, 1e-8 * load);
+      EXPECT_EQ(run.solution.activeContactNodes,
+                kind == Kind::cylinder ? (order == 1 ? 6 : 10) : corners); // all along two edges
+    }
+}
+
 /// A platen, meshed finer than what it presses: forces on nodes that do not give would not be unique.
 TEST(ContactNodesTest, ASideThatASupportHoldsCarriesNoMultipliers) {
   for (const int dimension : {2, 3})
