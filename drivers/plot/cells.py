@@ -34,9 +34,33 @@ PIECES = {
 }
 
 
+# Corners of cells of several shapes, by their numbers of nodes, as quadrilaterals or hexahedra whose corners fall together.
+COLLAPSED = {
+    "quadrilateral": {3: (0, 1, 2, 2), 6: (0, 1, 2, 2)},
+    "hexahedron": {4: (0, 1, 2, 2, 3, 3, 3, 3), 10: (0, 1, 2, 2, 3, 3, 3, 3), 5: (0, 1, 2, 3, 4, 4, 4, 4),
+                   13: (0, 1, 2, 3, 4, 4, 4, 4), 6: (0, 1, 2, 2, 3, 4, 5, 5), 15: (0, 1, 2, 2, 3, 4, 5, 5)},
+}
+
+
+def collapsed(shape, cells):
+    """The shape and the rows of cells that are not all alike, or of prisms and pyramids; None of others."""
+    sizes = cells.shape[1] - numpy.cumprod((cells == cells[:, -1:])[:, ::-1], axis=1).sum(axis=1) + 1
+    if shape not in ("prism", "pyramid") and (sizes == cells.shape[1]).all():
+        return None
+    common = "quadrilateral" if shape == "quadrilateral" else "hexahedron"
+    rows = cells[:, :min(cells.shape[1], 8 if common == "hexahedron" else 4)]
+    if common == "hexahedron" and rows.shape[1] < 8:
+        rows = numpy.pad(rows, ((0, 0), (0, 8 - rows.shape[1])), mode="edge")
+    for size, places in COLLAPSED[common].items():
+        rows = numpy.where((sizes == size)[:, None], cells[:, numpy.minimum(places, cells.shape[1] - 1)], rows)
+    return common, rows
+
+
 def linear(cell_type, cells):
     """Linear cells that draw quadratic ones, by ascending first nodes, each with its cell; linear ones are left alone."""
     shape = cell_type.removeprefix("quadratic ")
+    if rows := collapsed(cell_type.split(" ")[-1], cells):
+        return *rows, numpy.arange(len(cells))
     if cell_type.startswith("serendipity "):
         shape = cell_type.removeprefix("serendipity ")
         return shape, cells[:, :len(set(sum(FACETS[shape], ())))], numpy.arange(len(cells))
@@ -55,6 +79,8 @@ def is_plane(cell_type):
 def keys(tuples):
     """One number for each row of node numbers, the same for rows of the same nodes in any order."""
     ordered = numpy.sort(tuples, axis=1).astype(numpy.uint64)
+    again = numpy.pad(ordered[:, 1:] == ordered[:, :-1], ((0, 0), (1, 0)))  # a node that is there twice counts as the greatest
+    ordered = numpy.sort(numpy.where(again, ordered[:, -1:], ordered), axis=1)
     factor = ordered.max(initial=0) + numpy.uint64(1)
     key = ordered[:, 0]
     for column in (1, ordered.shape[1] - 1) if ordered.shape[1] > 2 else (1,):  # least, next and greatest tell facets apart
@@ -65,8 +91,15 @@ def keys(tuples):
 def facets(cell_type, cells):
     """All facets of all cells, each with its cell."""
     sides = FACETS[cell_type]
-    return (numpy.concatenate([cells[:, list(side)] for side in sides]),
-            numpy.tile(numpy.arange(len(cells)), len(sides)))
+    rows, cell = (numpy.concatenate([cells[:, list(side)] for side in sides]), numpy.tile(numpy.arange(len(cells)), len(sides)))
+    whole = distinct(rows) >= min(3, rows.shape[1])
+    return rows[whole], cell[whole]
+
+
+def distinct(rows):
+    """How many different numbers each row has."""
+    ordered = numpy.sort(rows, axis=1)
+    return 1 + (ordered[:, 1:] != ordered[:, :-1]).sum(axis=1)
 
 
 def outer_facets(cell_type, cells, owner=None):
@@ -83,11 +116,12 @@ def outer_facets(cell_type, cells, owner=None):
 
 
 def triangles(polygons):
-    """Polygons of three or four corners cut into triangles, each with its polygon."""
-    number = numpy.arange(len(polygons))
-    if polygons.shape[1] == 3:
-        return polygons, number
-    return numpy.concatenate([polygons[:, [0, 1, 2]], polygons[:, [0, 2, 3]]]), numpy.concatenate([number, number])
+    """Polygons of three or four corners cut into triangles, each with its polygon and the corners' places in that."""
+    places = numpy.array([[0, 1, 2], [0, 2, 3]][:polygons.shape[1] - 2])
+    parts = polygons[:, places].swapaxes(0, 1).reshape(-1, 3)
+    whole = distinct(parts) == 3
+    return (parts[whole], numpy.tile(numpy.arange(len(polygons)), len(places))[whole],
+            numpy.repeat(places, len(polygons), axis=0)[whole])
 
 
 def edges(polygons):
@@ -95,6 +129,7 @@ def edges(polygons):
     corners = polygons.shape[1]
     ends = numpy.concatenate([polygons[:, [k, (k + 1) % corners]] for k in range(corners)])
     polygon = numpy.tile(numpy.arange(len(polygons)), corners)
+    ends, polygon = ends[ends[:, 0] != ends[:, 1]], polygon[ends[:, 0] != ends[:, 1]]
     order = numpy.argsort(keys(ends), kind="stable")
     ends, polygon, key = ends[order], polygon[order], keys(ends)[order]
     first = numpy.concatenate([[True], key[1:] != key[:-1]]) if len(key) else numpy.zeros(0, bool)

@@ -156,7 +156,8 @@ def read_body(name, group):
     cell_type = text(group.attrs.get("cell_type", "quadrilateral"))
     corners = {"triangle": 3, "quadrilateral": 4, "tetrahedron": 4, "hexahedron": 8, "quadratic triangle": 6,
                "quadratic quadrilateral": 9, "quadratic tetrahedron": 10, "quadratic hexahedron": 27,
-               "serendipity quadrilateral": 8, "serendipity hexahedron": 20}
+               "serendipity quadrilateral": 8, "serendipity hexahedron": 20, "prism": 6, "pyramid": 5, "quadratic prism": 15,
+               "quadratic pyramid": 13}
     if cells.ndim != 2 or cells.shape[1] != corners[cell_type]:
         raise ValueError(f"the cells of body {name} are no {cell_type}s")
     von_mises = group["von_mises"][:] if "von_mises" in group else None

@@ -47,10 +47,8 @@ def paint(axes, surfaces, view):
     picture = render.Picture(low - edge, high + edge, PIXELS)
     for place, surface in zip(projected, surfaces):
         facing = numpy.flatnonzero(surface.normals @ view.eye > 0)
-        polygons, owner = cells.triangles(surface.polygons[facing])
+        polygons, owner, which = cells.triangles(surface.polygons[facing])
         owner = facing[owner]
-        corners = numpy.arange(surface.polygons.shape[1])[None, :].repeat(len(facing), axis=0)
-        which = cells.triangles(corners)[0]
         light = render.shade(surface.normals[owner])[:, None, None]
         picture.draw(place[polygons], surface.colours[owner[:, None], which] * light)
     axes.imshow(picture.pixels(), extent=picture.extent(), origin="lower", interpolation="antialiased", zorder=1)

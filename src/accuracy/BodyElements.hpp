@@ -54,7 +54,12 @@ public:
   BodyElements(const scene::Body& body, const model::BodyLayout& layout);
 
   [[nodiscard]] fem::Physics physics() const { return physics_; }
+  /// Of the largest elements.
   [[nodiscard]] mesh::CellType cellType() const { return layout_.mesh->cellType(); }
+  /// Of one element.
+  [[nodiscard]] mesh::CellType typeOf(const ElementView& element) const {
+    return cellOf(cellType(), element.nodes.size());
+  }
   [[nodiscard]] const mesh::Mesh& mesh() const { return *layout_.mesh; }
   /// What a region is made of.
   [[nodiscard]] const fem::Material& materialOf(GlobalOrdinal region) const { return materials_[region]; }
@@ -88,7 +93,7 @@ public:
     std::vector<double> values(perElement * components), change;
     for (std::size_t e = 0; e < elements.elements.size(); ++e) {
       const std::span<const int> nodes = elements.numbering->elementNodes(e);
-      for (std::size_t i = 0; i < perElement; ++i) {
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
         const std::size_t node = nodes[i];
         if (looksUp)
           points[i] = layout_.mesh->point(subdomain.nodes[node]);
@@ -97,7 +102,8 @@ public:
       }
       if (isHeated_)
         model_->temperatureChange(elements.elements[e], change);
-      action(ElementView{e, elements.regionOf(e), nodes, points, values, change});
+      action(ElementView{e, elements.regionOf(e), nodes, std::span(points).first(nodes.size()),
+                         std::span(values).first(nodes.size() * components), change});
     }
   }
 

@@ -23,7 +23,7 @@ Vector3d at(const mesh::Mesh& mesh, GlobalOrdinal node) {
 
 std::vector<Vector3d> cornersOf(const mesh::Mesh& mesh, const mesh::Surface& surface, std::size_t facet) {
   std::vector<Vector3d> corners;
-  for (const GlobalOrdinal node : surface.facet(facet).first(numCornersOf(surface.facetType)))
+  for (const GlobalOrdinal node : surface.corners(facet))
     corners.push_back(at(mesh, node));
   return corners;
 }
@@ -86,11 +86,11 @@ bool locks(const scene::Body& body) {
 double facetSag(const mesh::Mesh& mesh, const mesh::Surface& surface) {
   constexpr double edgeOfBody = 0.7; // rad
   std::map<std::array<GlobalOrdinal, 2>, std::vector<std::size_t>> joints;
-  const std::size_t count = numCornersOf(surface.facetType);
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     if (isCurved(mesh, surface, f))
       continue;
-    const auto nodes = surface.facet(f);
+    const auto nodes = surface.corners(f);
+    const std::size_t count = nodes.size();
     for (std::size_t i = 0; i < count; ++i) {
       const GlobalOrdinal a = nodes[i], b = count == 2 ? a : nodes[(i + 1) % count];
       joints[{std::min(a, b), std::max(a, b)}].push_back(f);

@@ -26,15 +26,16 @@ double estimateElements(const BodyElements& body, const decomposition::Subdomain
                         const SubdomainFlux& flux, const Eigen::VectorXd& displacement,
                         std::vector<double>& estimates) {
   const std::span<const int> slots = flux.cornerSlots();
-  Eigen::MatrixXd nodal(flux.values.rows() - 1, flux.elements.numbering->nodesPerElement());
+  const std::size_t perElement = flux.elements.numbering->nodesPerElement();
+  Eigen::MatrixXd nodal(flux.values.rows() - 1, perElement);
   double energy = 0;
   body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
-    const std::size_t corners = nodal.cols();
+    const std::size_t corners = element.nodes.size();
     for (std::size_t i = 0; i < corners; ++i)
-      nodal.col(i) = flux.values.col(slots[element.number * corners + i]).head(nodal.rows());
-    const fem::FluxEnergies energies =
-        fem::fluxEnergies(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
-                          element.displacements, nodal, element.temperatureChange);
+      nodal.col(i) = flux.values.col(slots[element.number * perElement + i]).head(nodal.rows());
+    const fem::FluxEnergies energies = fem::fluxEnergies(
+        body.typeOf(element), element.points, body.physics(), body.materialOf(element.region),
+        element.displacements, nodal.leftCols(corners), element.temperatureChange);
     estimates[element.number] = energies.difference;
     energy += energies.flux;
   });
@@ -105,7 +106,7 @@ double ErrorEstimator::normOf(std::span<const Eigen::VectorXd> displacement) {
           body.gather(elements, BodyElements::inRegion(elements, region), displacement[s])));
     if (body.congruentFluxes(0) == nullptr)
       body.visit(subdomain, elements, displacement[s], Points::shape, [&](const ElementView& element) {
-        sums[0].add(fem::differenceNorms(body.cellType(), element.points, body.physics(),
+        sums[0].add(fem::differenceNorms(body.typeOf(element), element.points, body.physics(),
                                          body.materialOf(element.region), element.displacements, {})
                         .energy);
       });

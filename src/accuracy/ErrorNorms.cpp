@@ -27,7 +27,7 @@ ErrorNorms errorNorms(const scene::Scene& scene, const Decomposition& decomposit
       body.visit(subdomain, body.elementsOf(subdomain), displacement[s],
                  exact ? Points::inPlace : Points::shape, [&](const ElementView& element) {
                    const fem::DisplacementNorms norms =
-                       fem::differenceNorms(body.cellType(), element.points, body.physics(),
+                       fem::differenceNorms(body.typeOf(element), element.points, body.physics(),
                                             body.materialOf(element.region), element.displacements, here);
                    sums[0].add(norms.energy);
                    sums[1].add(norms.square);

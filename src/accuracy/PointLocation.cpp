@@ -17,9 +17,31 @@ namespace {
 
 using mesh::Mesh;
 
+template <int dim>
+double pullIn(const mesh::Shape<dim>& shape, mesh::Coordinates<dim>& xi);
+
+/// Of a prism or pyramid: moves its height first, then the place at that height.
+double pullIntoLevel(const mesh::Shape<3>& shape, mesh::Coordinates<3>& xi) {
+  const bool isPyramid = numCornersOf(shape.type) == 5;
+  const double height = std::clamp(xi[2], isPyramid ? 0.0 : -1.0, 1.0), width = isPyramid ? 1 - height : 1;
+  double outside = std::abs(xi[2] - height);
+  mesh::Coordinates<2> level = xi.head<2>();
+  if (isPyramid) {
+    level = level.cwiseMin(width).cwiseMax(-width).eval();
+    outside = std::max(outside, (xi.head<2>() - level).cwiseAbs().maxCoeff());
+  } else {
+    outside = std::max(outside, pullIn(mesh::referenceShape<2>(mesh::CellType::triangle), level));
+  }
+  xi << level, height;
+  return outside;
+}
+
 /// Moves reference coordinates into the reference element; returns how far they were outside.
 template <int dim>
 double pullIn(const mesh::Shape<dim>& shape, mesh::Coordinates<dim>& xi) {
+  if constexpr (dim == 3)
+    if (!shape.isSimplex && !shape.isBrick)
+      return pullIntoLevel(shape, xi);
   if (!shape.isSimplex) {
     const double outside = std::max(0.0, xi.cwiseAbs().maxCoeff() - 1);
     xi = xi.cwiseMin(1.0).cwiseMax(-1.0);
@@ -60,7 +82,7 @@ Location locateIn(const Mesh& mesh, GlobalOrdinal element, const Point& point, d
   std::vector<Point> corners;
   mesh.elementPoints(element, corners);
   Location location{element, {}};
-  mesh::withShape(mesh.cellType(), [&]<int dim>(const mesh::Shape<dim>& shape) {
+  mesh::withShape(cellOf(mesh.cellType(), corners.size()), [&]<int dim>(const mesh::Shape<dim>& shape) {
     mesh::Coordinates<dim> xi = coordinatesOf(shape, corners, point);
     outside = xi.allFinite() ? pullIn(shape, xi) : std::numeric_limits<double>::infinity();
     const mesh::NodalValues values = shape.values(xi.allFinite() ? xi : shape.centre());

@@ -14,7 +14,7 @@ namespace epafi::accuracy {
 /// A point as the sum of an element's nodes times weights, their shape functions there.
 struct Location {
   GlobalOrdinal element = 0;
-  std::array<double, mesh::mostNodes> weights{}; ///< nodesPerElement of them count; their sum is 1
+  std::array<double, mesh::mostNodes> weights{}; ///< as many as the element has nodes; their sum is 1
 };
 
 class PointLocation {

@@ -28,15 +28,16 @@ std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std:
   const mesh::Surface surface = body.mesh->surface(name);
   std::vector<Weight> weights;
   std::vector<Point> points;
-  std::vector<double> shares(surface.nodesPerFacet());
+  std::vector<double> shares;
   double area = 0;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
     body.mesh->pointsAt(nodes, points);
+    shares.resize(nodes.size());
     if (isOfRevolution)
-      mesh::revolvedShares(surface.facetType, points, shares);
+      mesh::revolvedShares(surface.typeOf(f), points, shares);
     else
-      mesh::nodalShares(surface.facetType, points, shares);
+      mesh::nodalShares(surface.typeOf(f), points, shares);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       weights.push_back({surface.elements[f], nodes[a], shares[a]});
       area += shares[a];

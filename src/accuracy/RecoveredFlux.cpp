@@ -46,15 +46,15 @@ void addElements(const BodyElements& body, const Subdomain& subdomain, const Eig
                  SubdomainFlux& flux) {
   const int numFluxes = fem::numFluxes(body.physics());
   const std::span<const int> slots = flux.cornerSlots();
+  const std::size_t perElement = flux.elements.numbering->nodesPerElement();
   Eigen::MatrixXd sampled;
   body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
-    fem::sampledFluxes(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
+    fem::sampledFluxes(body.typeOf(element), element.points, body.physics(), body.materialOf(element.region),
                        element.displacements, sampled, element.temperatureChange);
-    const double measure = mesh::measureOf(body.cellType(), element.points);
+    const double measure = mesh::measureOf(body.typeOf(element), element.points);
     sampled *= measure;
-    const std::size_t nodes = element.nodes.size();
-    for (std::size_t i = 0; i < nodes; ++i) {
-      auto sum = flux.values.col(slots[element.number * nodes + i]);
+    for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+      auto sum = flux.values.col(slots[element.number * perElement + i]);
       sum.head(numFluxes) += sampled.col(sampled.cols() == 1 ? 0 : static_cast<Eigen::Index>(i));
       sum[numFluxes] += measure;
     }

@@ -89,10 +89,11 @@ void addSizes(const SimplexMesh& mesh, const std::vector<double>& halvings, doub
 RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : scene_(scene) {
   for (const scene::Body& body : scene_.bodies)
     if (body.reducedIntegration)
-      throw InputError("body '" + body.name +
-                       "' is integrated by fewer points, which goes with quadrilaterals of 8 nodes and "
-                       "hexahedra of 20 alone, but meshes on the way to a target are made of triangles or "
-                       "tetrahedra; choose the integration \"full\", or solve it on its own mesh");
+      throw InputError(
+          "body '" + body.name +
+          "' is integrated by fewer points, which goes with quadrilaterals of 8 nodes and "
+          "hexahedra of 20 and prisms, but meshes on the way to a target are made of triangles or "
+          "tetrahedra; choose the integration \"full\", or solve it on its own mesh");
   const bool hasFiles = std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
                                     [](const scene::Body& body) { return !body.mesh.file.empty(); });
   scene::Scene uncut(scene_);

@@ -75,8 +75,9 @@ std::vector<Guess> locate(const Decomposition& from, const Decomposition& to, No
                                       ? interfaceNodes(subdomain, to.problem.components)
                                       : allNodes(subdomain)) {
       const Location location = locations[body]->find(fine.point(subdomain.nodes[node]));
-      Guess guess{s, node, {}, location.weights, static_cast<std::size_t>(coarse.nodesPerElement())};
-      coarse.elementNodes(location.element, std::span(guess.sources).first(guess.numSources));
+      const mesh::ElementNodes sources(coarse, location.element);
+      Guess guess{s, node, {}, location.weights, sources.size()};
+      std::copy(sources.begin(), sources.end(), guess.sources.begin());
       for (std::size_t i = 0; i < guess.numSources; ++i)
         guess.sources[i] += first[body];
       guesses.push_back(guess);

@@ -59,7 +59,7 @@ std::vector<FacetView> CoveringFacets::viewsOf(const PlacedSurface& placed) {
     points.clear();
     for (const GlobalOrdinal node : placed.surface.facet(f))
       points.push_back(placed.pointAt(node));
-    views.emplace_back(placed.surface.facetType, points);
+    views.emplace_back(placed.surface.typeOf(f), points);
   }
   return views;
 }

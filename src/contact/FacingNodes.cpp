@@ -78,8 +78,8 @@ bool isUsedTwice(const FacingNodes& pairs) {
 using Corners = std::vector<std::size_t>;
 
 /// A facet's corners after renumbering, sorted; `alone`, if there is one, comes last.
-Corners cornersAs(const SurfaceNodes& surface, const SurfaceNodes::Facet& facet, const Corners& number) {
-  Corners corners(facet.nodes.begin(), facet.nodes.begin() + surface.numCorners);
+Corners cornersAs(const SurfaceNodes::Facet& facet, const Corners& number) {
+  Corners corners(facet.nodes.begin(), facet.nodes.begin() + facet.numCorners);
   for (std::size_t& corner : corners)
     corner = number[corner];
   std::sort(corners.begin(), corners.end());
@@ -90,7 +90,7 @@ Corners cornersAs(const SurfaceNodes& surface, const SurfaceNodes::Facet& facet,
 std::vector<Corners> facetsAs(const SurfaceNodes& surface, const Corners& number) {
   std::vector<Corners> facets;
   for (const SurfaceNodes::Facet& facet : surface.facets) {
-    Corners corners = cornersAs(surface, facet, number);
+    Corners corners = cornersAs(facet, number);
     if (corners.back() != FacingNodes::alone)
       facets.push_back(std::move(corners));
   }
@@ -116,7 +116,7 @@ std::vector<char> commonFacets(const SurfaceNodes& first, const SurfaceNodes& se
   for (const bool needsCounterpart : {true, false}) {
     isCommon.clear();
     for (const SurfaceNodes::Facet& facet : first.facets) {
-      const Corners corners = cornersAs(first, facet, partner);
+      const Corners corners = cornersAs(facet, partner);
       isCommon.push_back(
           corners.back() != FacingNodes::alone &&
                   (!needsCounterpart || std::binary_search(theirs.begin(), theirs.end(), corners))

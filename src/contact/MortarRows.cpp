@@ -42,8 +42,8 @@ public:
   RowMaker(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second)
       : first_(first), second_(second),
         nodes_(surfaceNodes(first.pointAt, first.surface, 0, terms.isOfRevolution)),
-        basis_(dualBasis(first.surface.facetType)), facets_(mortarIntegrals(terms, first, second)),
-        multiplierNodes_(nodes_, basis_, facets_) {
+        bases_(dualBases(first.surface)), facets_(mortarIntegrals(terms, first, second)),
+        multiplierNodes_(nodes_, bases_, facets_) {
     isBent_ = faceOtherSide(facets_, nodes_);
   }
 
@@ -68,7 +68,7 @@ private:
 
   const PlacedSurface &first_, &second_;
   SurfaceNodes nodes_;
-  MatrixXd basis_; ///< N̂ = T N of a facet
+  std::map<std::size_t, MatrixXd> bases_; ///< N̂ = T N of a facet, by its number of nodes
   std::vector<MortarFacet> facets_;
   MultiplierNodes multiplierNodes_;
   std::vector<char> isBent_;
@@ -86,12 +86,12 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
   if (rows.empty())
     return;
   const Eigen::Index numRows = rows.size();
-  MatrixXd sum = MatrixXd::Zero(numRows, basis_.rows());
+  MatrixXd sum = MatrixXd::Zero(numRows, std::ssize(places));
   for (std::size_t a = 0; a < places.size(); ++a)
     for (Eigen::Index r = 0; r < numRows; ++r)
       if (representative[places[a]] == rows[r])
         sum(r, a) = 1;
-  const MatrixXd functions = sum * basis_;
+  const MatrixXd functions = sum * bases_.at(places.size());
   const VectorXd integrals = functions * facet.shares;
   MatrixXd psi;
   if (facet.area < sliverOfFacet * facet.whole) {

@@ -21,18 +21,19 @@ constexpr double coverageOfTurns = 0.05;
 
 } // namespace
 
-MultiplierNodes::MultiplierNodes(const SurfaceNodes& nodes, const Eigen::MatrixXd& basis,
+MultiplierNodes::MultiplierNodes(const SurfaceNodes& nodes,
+                                 const std::map<std::size_t, Eigen::MatrixXd>& bases,
                                  const std::vector<MortarFacet>& facets)
     : nodes_(nodes), facets_(facets) {
   std::vector<double> covered(nodes.nodes.size(), 0.0), whole = covered;
   const auto addTo = [&](std::size_t facet, const VectorXd& shares, std::vector<double>& sums) {
-    const VectorXd values = basis * shares;
     const std::vector<std::size_t>& places = nodes.facets[facet].nodes;
+    const VectorXd values = bases.at(places.size()) * shares;
     for (std::size_t a = 0; a < places.size(); ++a)
       sums[places[a]] += values[a];
   };
   for (std::size_t f = 0; f < nodes.facets.size(); ++f)
-    addTo(f, VectorXd::Map(nodes.facets[f].shares.data(), basis.rows()), whole);
+    addTo(f, VectorXd::Map(nodes.facets[f].shares.data(), std::ssize(nodes.facets[f].nodes)), whole);
   for (const MortarFacet& facet : facets)
     addTo(facet.facet, facet.shares, covered);
   // Of edges of order 2 that begin on the axis of a solid of revolution the first function has no integral.
@@ -155,7 +156,7 @@ double MultiplierNodes::width(const std::vector<std::size_t>& places) const {
     moments += off * off.transpose() / number;
   }
   const direct::SymmetricEigen spectrum = direct::eigenOf(moments); // ascending
-  return nodes_.numCorners == 2 ? spectrum.values[2] : spectrum.values[1];
+  return nodes_.facets.front().numCorners == 2 ? spectrum.values[2] : spectrum.values[1];
 }
 
 } // namespace epafi::contact

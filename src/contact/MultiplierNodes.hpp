@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace epafi::contact {
@@ -18,8 +19,8 @@ class MultiplierNodes {
 public:
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  /// Keeps references. \param basis T of N̂ = T N of each facet \param facets what of the surface is covered
-  MultiplierNodes(const SurfaceNodes& nodes, const Eigen::MatrixXd& basis,
+  /// Keeps references. \param bases dualBases() of the surface \param facets what of the surface is covered
+  MultiplierNodes(const SurfaceNodes& nodes, const std::map<std::size_t, Eigen::MatrixXd>& bases,
                   const std::vector<MortarFacet>& facets);
 
   /// The place of the node whose multiplier each node's N̂ belongs to: itself, if the other surface reaches

@@ -18,17 +18,20 @@ using Shares = std::vector<std::vector<ContactLayout::Share>>;
 /// Areas below this share of the mean are round-off.
 constexpr double roundOff = 1e-9;
 
-double alphaOf(mesh::CellType facet) {
-  return facet == mesh::CellType::triangle6        ? 1.0 / 6
-         : facet == mesh::CellType::quadrilateral8 ? 0.325
-                                                   : 0.15;
+double alphaOf(const mesh::Surface& surface) {
+  mesh::CellType largest = mesh::CellType::triangle6;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f)
+    largest = std::max(largest, surface.typeOf(f));
+  return largest == mesh::CellType::triangle6        ? 1.0 / 6
+         : largest == mesh::CellType::quadrilateral8 ? 0.325
+                                                     : 0.15;
 }
 
 /// W of one facet's nodes that have rows.
 class FacetWeights {
 public:
-  FacetWeights(mesh::CellType facet, Weights& weights)
-      : facet_(facet), alpha_(alphaOf(facet)), weights_(weights) {}
+  FacetWeights(mesh::CellType facet, double alpha, Weights& weights)
+      : facet_(facet), alpha_(alpha), weights_(weights) {}
 
   /// \param rows  of the facet's nodes, −1: none
   void add(std::span<const std::ptrdiff_t> rows) {
@@ -90,7 +93,7 @@ Shares dualCombinations(const Weights& weights, double alpha, std::size_t numRow
 /// Adds W of some rows, 0 entries left out.
 void addWeights(const mesh::Surface& surface, const std::map<GlobalOrdinal, std::ptrdiff_t>& rowOf,
                 Weights& weights) {
-  FacetWeights facets(surface.facetType, weights);
+  const double alpha = alphaOf(surface);
   std::vector<std::ptrdiff_t> rows;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     rows.clear();
@@ -98,7 +101,7 @@ void addWeights(const mesh::Surface& surface, const std::map<GlobalOrdinal, std:
       const auto row = rowOf.find(node);
       rows.push_back(row == rowOf.end() ? -1 : row->second);
     }
-    facets.add(rows);
+    FacetWeights(surface.typeOf(f), alpha, weights).add(rows);
   }
 }
 
@@ -123,6 +126,20 @@ Weights weightsOf(const mesh::Surface& surface, const ContactLayout& contact) {
   return weights;
 }
 
+/// N̂ = T N on one facet.
+Eigen::MatrixXd dualBasis(mesh::CellType facet, double alpha) {
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(numNodesOf(facet), numNodesOf(facet));
+  if (!haveDualRows(facet))
+    return basis;
+  const std::span<const int> ends = edgesOf(facet);
+  for (std::size_t end = 0; end < ends.size(); ++end) {
+    const Eigen::Index middle = numCornersOf(facet) + end / 2;
+    basis(ends[end], middle) = alpha;
+    basis(middle, middle) = 1 - 2 * alpha;
+  }
+  return basis;
+}
+
 void setSmoothed(const Weights& weights, ContactLayout& contact) {
   contact.smoothed.assign(contact.firstNodes.size(), {});
   for (const auto& [place, weight] : weights)
@@ -135,18 +152,12 @@ bool haveDualRows(mesh::CellType facet) {
   return facet == mesh::CellType::triangle6 || facet == mesh::CellType::quadrilateral8;
 }
 
-Eigen::MatrixXd dualBasis(mesh::CellType facet) {
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(numNodesOf(facet), numNodesOf(facet));
-  if (!haveDualRows(facet))
-    return basis;
-  const double alpha = alphaOf(facet);
-  const std::span<const int> ends = edgesOf(facet);
-  for (std::size_t end = 0; end < ends.size(); ++end) {
-    const Eigen::Index middle = numCornersOf(facet) + end / 2;
-    basis(ends[end], middle) = alpha;
-    basis(middle, middle) = 1 - 2 * alpha;
-  }
-  return basis;
+std::map<std::size_t, Eigen::MatrixXd> dualBases(const mesh::Surface& surface) {
+  std::map<std::size_t, Eigen::MatrixXd> bases;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f)
+    if (const std::size_t number = surface.facet(f).size(); !bases.contains(number))
+      bases[number] = dualBasis(surface.typeOf(f), alphaOf(surface));
+  return bases;
 }
 
 void smoothRows(const mesh::Surface& surface, ContactLayout& contact) {
@@ -162,7 +173,7 @@ void adaptRows(const mesh::Surface& surface, ContactLayout& contact) {
   if (!haveDualRows(surface.facetType))
     return;
   contact.isDual = true;
-  contact.combinations = dualCombinations(weights, alphaOf(surface.facetType), contact.firstNodes.size());
+  contact.combinations = dualCombinations(weights, alphaOf(surface), contact.firstNodes.size());
   const auto combine = [&](std::vector<double>& values) {
     std::vector<double> sums(values.size(), 0.0);
     for (const auto& [place, weight] : weights)

@@ -17,20 +17,24 @@
 ///   û_c = u_c,   û_m = (u_m − α(u_c + u_c'))/(1 − 2α),
 /// and likewise of the gaps: no node of a solution penetrates, and an even pressure is met exactly (Wohlmuth,
 /// Popp, Gee, Wall, *Comput. Mech.* 49 (2012); Popp, Wohlmuth, Gee, Wall, *SIAM J. Sci. Comput.* 34 (2012),
-/// with α = 1/5).
+/// with α = 1/5). Where both stand side by side, α is that of the quadrilaterals.
 
 #include "epafi/contact/ContactLayout.hpp"
 #include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <map>
+
 namespace epafi::contact {
 
 /// Whether rows of facets of a type are dual to N̂: six-node triangles, eight-node quadrilaterals.
 bool haveDualRows(mesh::CellType facet);
 
-/// N̂ = T N on a facet for which rows are dual to N̂; of others the identity.
-Eigen::MatrixXd dualBasis(mesh::CellType facet);
+/// N̂ = T N on the facets of a surface for which rows are dual to N̂; of others the identity. By the number
+/// of a facet's nodes.
+std::map<std::size_t, Eigen::MatrixXd> dualBases(const mesh::Surface& surface);
 
 /// Finds W of a contact whose first surface has facets of order 2; else leaves everything as it is.
 /// \param surface  the first body's

@@ -59,16 +59,16 @@ SmoothSurface::SmoothSurface(const NodePoints& pointAt, const mesh::Surface& sur
   for (std::size_t f = 0; f < facets.size(); ++f) {
     for (const GlobalOrdinal node : surface.facet(f))
       facets[f].push_back(placeOf_.at(node));
-    isStraight = isStraight && noteMiddles(surface.facetType, facets[f]);
+    isStraight = isStraight && noteMiddles(surface.typeOf(f), facets[f]);
   }
   if (!isStraight)
     middles_.clear();
   std::vector<std::size_t> corners;
-  for (const std::vector<std::size_t>& facet : facets)
-    for (const auto& piece : piecesOf(isStraight ? withOrder(surface.facetType, 1) : surface.facetType)) {
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    for (const auto& piece : piecesOf(isStraight ? withOrder(surface.typeOf(f), 1) : surface.typeOf(f))) {
       corners.clear();
       for (const std::size_t corner : piece)
-        corners.push_back(facet[corner]);
+        corners.push_back(facets[f][corner]);
       addPiece(corners);
     }
 }

@@ -37,10 +37,10 @@ public:
     shares.clear();
     for (const GlobalOrdinal node : corners)
       shares.push_back({{node, 1.0}});
-    const std::span<const int> edges = edgesOf(surface_.facetType);
+    const std::span<const int> edges = edgesOf(surface_.typeOf(f));
     for (std::size_t e = 0; e < edges.size(); e += 2)
       add(std::array{corners[edges[e]], corners[edges[e + 1]]}, nodes, points, shares);
-    if (surface_.facetType == mesh::CellType::quadrilateral)
+    if (surface_.typeOf(f) == mesh::CellType::quadrilateral)
       add(corners, nodes, points, shares);
   }
 
@@ -101,7 +101,7 @@ void addTo(std::vector<Eigen::Vector3d>& faces, const Eigen::Vector3d& normal) {
 SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surface, int order,
                           bool isOfRevolution) {
   const bool complete = order > orderOf(surface.facetType);
-  const mesh::CellType facetType = complete ? withOrder(surface.facetType, order) : surface.facetType;
+  const mesh::CellType largest = complete ? withOrder(surface.facetType, order) : surface.facetType;
   std::map<GlobalOrdinal, std::size_t> placeOf;
   forEachFacet(pointAt, surface, complete, [&](const auto& nodes, const auto&, const auto&) {
     for (const GlobalOrdinal node : nodes)
@@ -118,13 +118,15 @@ SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surfac
   result.areas.assign(result.nodes.size(), 0.0);
   result.spacings.assign(result.nodes.size(), 0.0);
   result.faces.resize(result.nodes.size());
-  result.numCorners = numCornersOf(facetType);
   std::vector<Eigen::Vector3d> normals;
-  std::vector<double> areas(numNodesOf(facetType));
+  std::vector<double> areas;
   forEachFacet(pointAt, surface, complete, [&](const auto& nodes, const auto& points, const auto& shares) {
+    const mesh::CellType facetType = cellOf(largest, points.size());
+    areas.resize(points.size());
     mesh::nodalNormals(facetType, points, normals);
     mesh::nodalShares(facetType, points, areas);
     auto& facet = result.facets.emplace_back();
+    facet.numCorners = numCornersOf(facetType);
     facet.normal = mesh::areaVector(facetType, points).normalized();
     const double even = std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
     if (isOfRevolution)
@@ -147,7 +149,7 @@ SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surfac
   for (std::vector<Eigen::Vector3d>& faces : result.faces)
     if (faces.size() == 1)
       faces.clear();
-  if (dimensionOf(facetType) == 2)
+  if (dimensionOf(largest) == 2)
     for (double& spacing : result.spacings)
       spacing = std::sqrt(spacing);
   return result;

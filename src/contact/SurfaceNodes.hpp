@@ -29,11 +29,11 @@ struct SurfaceNodes {
   /// What a facet has to do with its nodes.
   struct Facet {
     std::vector<std::size_t> nodes; ///< places, corners first
-    std::vector<double> shares;     ///< ∫N of each
-    Eigen::Vector3d normal;         ///< of length 1
+    int numCorners = 2;
+    std::vector<double> shares; ///< ∫N of each
+    Eigen::Vector3d normal;     ///< of length 1
   };
   std::vector<Facet> facets;
-  int numCorners = 2; ///< of each facet
   /// Where a surface bends sharply, Σ of the facets' normals by area of each face that meets there, any two
   /// of which are more than `sharpBend` apart; empty where it does not: `normals` says all.
   std::vector<std::vector<Eigen::Vector3d>> faces;

@@ -24,7 +24,7 @@ UnitedSurface unite(const mesh::Mesh& mesh, std::span<const std::string> names) 
     const mesh::Surface next = mesh.surface(names[part]);
     for (std::size_t f = 0; f < next.numFacets(); ++f)
       if (isNew(next.facet(f))) {
-        all.facetNodes.insert(all.facetNodes.end(), next.facet(f).begin(), next.facet(f).end());
+        all.add(next.facet(f));
         all.elements.push_back(next.elements[f]);
         result.parts.push_back(part);
       }

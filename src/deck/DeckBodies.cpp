@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 namespace epafi::deck {
 namespace {
@@ -17,16 +19,38 @@ std::size_t rootOf(std::vector<std::size_t>& parents, std::size_t number) {
   return number;
 }
 
+/// An element and where it stands.
+struct Member {
+  GlobalOrdinal number;
+  const Elements* among;
+  const ElementForm* type;
+  std::span<const GlobalOrdinal> nodes;
+};
+
+/// By their numbers.
+std::vector<Member> membersOf(const std::vector<const Elements*>& alike) {
+  std::vector<Member> members;
+  for (const Elements* elements : alike) {
+    const std::size_t count = elements->nodesPerElement;
+    for (std::size_t e = 0; e < elements->numbers.size(); ++e)
+      members.push_back({elements->numbers[e], elements, &formOf(*elements),
+                         std::span(elements->nodes).subspan(e * count, count)});
+  }
+  std::sort(members.begin(), members.end(),
+            [](const Member& a, const Member& b) { return a.number < b.number; });
+  return members;
+}
+
 /// Of each element the lowest one that it is joined with by facets.
-std::vector<std::size_t> joined(const Elements& elements, const ElementForm& type) {
-  std::vector<std::size_t> parents(elements.numbers.size());
+std::vector<std::size_t> joined(const std::vector<Member>& members) {
+  std::vector<std::size_t> parents(members.size());
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   std::map<Numbers, std::size_t> firstAt; // by the facet's corners, ascending
   for (std::size_t e = 0; e < parents.size(); ++e)
-    for (const std::vector<int>& face : type.faces) {
+    for (const std::vector<int>& face : members[e].type->faces) {
       Numbers corners;
       for (const int corner : face)
-        corners.push_back(elements.nodes[e * elements.nodesPerElement + corner]);
+        corners.push_back(members[e].nodes[corner]);
       std::sort(corners.begin(), corners.end());
       const auto [place, isNew] = firstAt.try_emplace(std::move(corners), e);
       const std::size_t a = rootOf(parents, place->second), b = rootOf(parents, e);
@@ -37,12 +61,37 @@ std::vector<std::size_t> joined(const Elements& elements, const ElementForm& typ
   return parents;
 }
 
+/// Whether elements of two types may be in one body, all of which is reduced or nothing.
+bool areAlike(const ElementForm& a, const ElementForm& b) {
+  const int edgesOfOrder2 = 8; // Gmsh's kinds from there on
+  return a.physics == b.physics && (a.kind < edgesOfOrder2) == (b.kind < edgesOfOrder2) &&
+         (!a.mayBeReduced() || !b.mayBeReduced() || a.isReduced == b.isReduced);
+}
+
+/// The elements of a deck, those that may be in one body together; of types that exclude each other each
+/// stands alone.
+std::vector<std::vector<const Elements*>> classesOf(const Deck& deck) {
+  std::vector<std::vector<const Elements*>> classes;
+  for (const Elements& elements : deck.elements) {
+    const auto isIn = [&](const std::vector<const Elements*>& known) {
+      return std::all_of(known.begin(), known.end(),
+                         [&](const Elements* other) { return areAlike(formOf(elements), formOf(*other)); });
+    };
+    const auto found = std::find_if(classes.begin(), classes.end(), isIn);
+    if (found == classes.end())
+      classes.push_back({&elements});
+    else
+      found->push_back(&elements);
+  }
+  return classes;
+}
+
 } // namespace
 
 DeckBodies::DeckBodies(const Deck& deck) {
   findSections(deck);
-  for (const Elements& elements : deck.elements)
-    addBodies(elements);
+  for (const std::vector<const Elements*>& alike : classesOf(deck))
+    addBodies(alike);
   if (bodies_.empty())
     throw InputError(deck.file + " has no elements with a *SOLID SECTION; there is nothing to solve");
   for (int b = 0; b < std::ssize(bodies_); ++b) {
@@ -63,23 +112,25 @@ void DeckBodies::findSections(const Deck& deck) {
       sectionOf_[element] = s;
 }
 
-void DeckBodies::addBodies(const Elements& elements) {
-  const ElementForm& type = formOf(elements);
-  const std::vector<std::size_t> first = joined(elements, type);
+void DeckBodies::addBodies(const std::vector<const Elements*>& alike) {
+  const std::vector<Member> members = membersOf(alike);
+  const std::vector<std::size_t> first = joined(members);
   std::map<std::size_t, std::size_t> bodyAt; // by its lowest element
   for (std::size_t e = 0; e < first.size(); ++e) {
-    if (!sectionOf_.contains(elements.numbers[e]))
-      throw InputError(text(elements.place) + ": *ELEMENT: element " + std::to_string(elements.numbers[e]) +
+    const auto& [number, among, type, nodes] = members[e];
+    if (!sectionOf_.contains(number))
+      throw InputError(text(among->place) + ": *ELEMENT: element " + std::to_string(number) +
                        " is in no *SOLID SECTION, which would say what it is made of");
     const auto [place, isNew] = bodyAt.try_emplace(first[e], bodies_.size());
     if (isNew)
-      bodies_.push_back({"", &type, elements.place, {}, {}});
+      bodies_.push_back({"", type, among->place, {}, {}});
     DeckBody& body = bodies_[place->second];
-    body.elements.push_back(elements.numbers[e]);
-    bodyOfElement_[elements.numbers[e]] = static_cast<int>(place->second);
-    const std::size_t count = elements.nodesPerElement;
-    const auto nodes = std::span(elements.nodes).subspan(e * count, count);
-    nodesOf_[elements.numbers[e]] = nodes;
+    if (type->isReduced && !body.type->isReduced)
+      std::tie(body.type, body.place) = std::pair(type, among->place);
+    body.elements.push_back(number);
+    bodyOfElement_[number] = static_cast<int>(place->second);
+    typeOf_[number] = type;
+    nodesOf_[number] = nodes;
     body.nodes.insert(body.nodes.end(), nodes.begin(), nodes.end());
   }
   for (const auto& [lowest, place] : bodyAt) {
@@ -91,7 +142,7 @@ void DeckBodies::addBodies(const Elements& elements) {
 
 std::vector<GlobalOrdinal> DeckBodies::cornersOf(const std::pair<GlobalOrdinal, int>& face) const {
   const auto nodes = nodesOf(face.first);
-  const std::vector<std::vector<int>>& faces = bodies_[ofElement(face.first)].type->faces;
+  const std::vector<std::vector<int>>& faces = typeOf(face.first).faces;
   std::vector<GlobalOrdinal> corners;
   for (const int corner : faces.at(face.second - 1))
     corners.push_back(nodes[corner]);

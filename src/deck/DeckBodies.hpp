@@ -13,10 +13,10 @@
 
 namespace epafi::deck {
 
-/// Elements of one type, joined facet by facet.
+/// Elements of one physics and order, joined facet by facet.
 struct DeckBody {
-  std::string name; ///< "body 1"
-  const ElementForm* type = nullptr;
+  std::string name;                    ///< "body 1"
+  const ElementForm* type = nullptr;   ///< of its first element, or of one that is integrated by fewer points
   Place place;                         ///< of the type's first card
   std::vector<GlobalOrdinal> elements; ///< their numbers, ascending
   std::vector<GlobalOrdinal> nodes;    ///< likewise
@@ -29,6 +29,8 @@ public:
   explicit DeckBodies(const Deck& deck);
 
   [[nodiscard]] const std::vector<DeckBody>& all() const { return bodies_; }
+  /// What an element is.
+  [[nodiscard]] const ElementForm& typeOf(GlobalOrdinal element) const { return *typeOf_.at(element); }
   /// The body of an element.
   [[nodiscard]] int ofElement(GlobalOrdinal element) const { return bodyOfElement_.at(element); }
   /// Those that have a node, ascending; none of a node without elements.
@@ -44,10 +46,12 @@ public:
 
 private:
   void findSections(const Deck& deck);
-  void addBodies(const Elements& elements);
+  /// \param alike  all elements of which some may be in one body
+  void addBodies(const std::vector<const Elements*>& alike);
 
   std::vector<DeckBody> bodies_;
   std::map<GlobalOrdinal, int> bodyOfElement_, sectionOf_;
+  std::map<GlobalOrdinal, const ElementForm*> typeOf_;
   std::map<GlobalOrdinal, std::vector<int>> bodiesOfNode_;
   std::map<GlobalOrdinal, std::span<const GlobalOrdinal>> nodesOf_;
 };

@@ -12,6 +12,7 @@ using Faces = std::vector<std::vector<int>>;
 
 const Faces ofTriangle{{0, 1}, {1, 2}, {2, 0}}, ofQuadrilateral{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
     ofTetrahedron{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}},
+    ofPrism{{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}},
     ofHexahedron{{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
 
 std::vector<int> inOrder(int number) {
@@ -21,8 +22,9 @@ std::vector<int> inOrder(int number) {
 }
 
 /// Both count corners first. Gmsh has the edges of a tetrahedron in the order 01 12 20 03 23 13, those of a
-/// hexahedron as 01 03 04 12 15 23 26 37 45 47 56 67.
+/// prism as 01 02 03 12 14 25 34 35 45, those of a hexahedron as 01 03 04 12 15 23 26 37 45 47 56 67.
 const std::vector<int> places10{0, 1, 2, 3, 4, 5, 6, 7, 9, 8},
+    places15{0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10},
     places20{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14};
 
 const std::map<std::string, ElementForm>& types() {
@@ -30,6 +32,8 @@ const std::map<std::string, ElementForm>& types() {
     std::map<std::string, ElementForm> known{
         {"C3D4", {"elasticity 3-D", 3, 4, 2, false, inOrder(4), ofTetrahedron}},
         {"C3D10", {"elasticity 3-D", 3, 11, 2, false, places10, ofTetrahedron}},
+        {"C3D6", {"elasticity 3-D", 3, 6, 2, true, inOrder(6), ofPrism}},
+        {"C3D15", {"elasticity 3-D", 3, 18, 2, true, places15, ofPrism}},
         {"C3D8", {"elasticity 3-D", 3, 5, 3, false, inOrder(8), ofHexahedron}},
         {"C3D20", {"elasticity 3-D", 3, 17, 3, false, places20, ofHexahedron}},
         {"C3D20R", {"elasticity 3-D", 3, 17, 3, true, places20, ofHexahedron}}};
@@ -54,9 +58,10 @@ const std::map<std::string, ElementForm>& types() {
 const ElementForm& formOf(const Elements& elements) {
   const auto found = types().find(elements.type);
   if (found == types().end())
-    throw InputError(text(elements.place) + ": *ELEMENT: elements of the type " + elements.type +
-                     " are not solved here; solids are meshed in C3D4, C3D8, C3D10, C3D20 or C3D20R, plane "
-                     "bodies in CPE or CPS, solids of revolution in CAX elements of 3, 4, 6 or 8 nodes");
+    throw InputError(
+        text(elements.place) + ": *ELEMENT: elements of the type " + elements.type +
+        " are not solved here; solids are meshed in C3D4, C3D6, C3D8, C3D10, C3D15, C3D20 or C3D20R, plane "
+        "bodies in CPE or CPS, solids of revolution in CAX elements of 3, 4, 6 or 8 nodes");
   return found->second;
 }
 

@@ -107,7 +107,7 @@ void ModelMaker::addBodies() {
     list.set("Inner Nodes", "none");
     if (isOfRevolution(*body.type))
       list.set("Axis", "free"); // what is to be held the deck says
-    if (body.type->isReduced && body.elements.size() > 1)
+    if (body.type->isReduced && (body.elements.size() > 1 || !body.type->isLooseAlone()))
       list.set("Integration", "reduced");
     else if (body.type->isReduced)
       model_.notes.push_back(text(body.place) + ": element " + std::to_string(body.elements.front()) +

@@ -23,7 +23,7 @@ std::vector<Face> ModelMaker::facesAt(const Surface& surface, const std::string&
   std::map<Numbers, std::vector<Face>> facesOf; // by corners, ascending
   for (const DeckBody& body : bodies_.all())
     for (const GlobalOrdinal element : body.elements)
-      for (int label = 1; label <= std::ssize(body.type->faces); ++label) {
+      for (int label = 1; label <= std::ssize(bodies_.typeOf(element).faces); ++label) {
         Numbers corners = bodies_.cornersOf({element, label});
         std::sort(corners.begin(), corners.end());
         if (std::includes(surface.nodes.begin(), surface.nodes.end(), corners.begin(), corners.end()))

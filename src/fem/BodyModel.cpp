@@ -68,9 +68,12 @@ void requireJoined(const SolidBody& body) {
 void requireIntegration(const SolidBody& body) {
   if (!body.solid.reducedIntegration)
     return;
-  if (!isSerendipity(body.mesh.cellType()))
+  bool hasRule = body.mesh.part() != nullptr; // whoever dealt out the pieces has looked
+  for (GlobalOrdinal element = 0; !hasRule && element < body.mesh.numElements(); ++element)
+    hasRule = hasReducedRule(mesh::ElementNodes(body.mesh, element).type());
+  if (!hasRule)
     throw body.refusal(
-        "reduced integration goes with quadrilaterals of 8 nodes and hexahedra of 20 alone, but its "
+        "reduced integration goes with quadrilaterals of 8 nodes, hexahedra of 20 and prisms, but its "
         "mesh consists of " +
         std::string(toString(body.mesh.cellType())) +
         "s; choose the integration \"full\", or the \"Inner Nodes\" \"none\" if its mesh file has such "
@@ -199,8 +202,8 @@ void BodyModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const 
   const GlobalOrdinal element = kind - numShared;
   std::vector<Point> points;
   body_.cornersOf(element, points);
-  elementStiffness(body_.mesh.cellType(), points, body_.solid.physics, materialOf(element), stiffness,
-                   integrationOf(body_.solid));
+  elementStiffness(cellOf(body_.mesh.cellType(), points.size()), points, body_.solid.physics,
+                   materialOf(element), stiffness, integrationOf(body_.solid));
   if (isFramed(element))
     turnIntoFrames(element, stiffness);
 }
@@ -211,7 +214,7 @@ void BodyModel::element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen
   kinds(std::span(&element, 1), std::span(&kind, 1));
   this->stiffness(kind, stiffness);
   loads(std::span(&element, 1), column);
-  load = column.col(0);
+  load = column.col(0).head(stiffness.rows());
 }
 
 void BodyModel::loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {

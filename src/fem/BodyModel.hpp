@@ -66,11 +66,11 @@ public:
   void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const {
     regions_.of(body_, elements, regions);
   }
-  /// Stiffness of the elements of a kind; size nodesPerElement · components, node by node.
+  /// Stiffness of the elements of a kind; size nodes · components, node by node.
   void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const;
-  /// Loads of elements, one column each; rows as in the stiffness.
+  /// Loads of elements, one column each, as long as the largest stiffness; 0 behind the element's own.
   void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
-  /// Stiffness and load of one element.
+  /// Stiffness and load of one element, of one size.
   void element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const;
 
   /// Change of temperature at the nodes of an element; empty of a body of which no temperature changes.

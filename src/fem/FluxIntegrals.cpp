@@ -180,6 +180,12 @@ void sampleFlux(const Law& law, const mesh::Shape<dim>& shape, std::span<const P
   } else if (shape.isSimplex) {
     for (int a = 0; a < shape.numNodes; ++a)
       fluxes.col(a) = at(shape.nodeSamples()[a]);
+  } else if (!shape.isBrick) {
+    Eigen::Matrix<double, Law::numFluxes, Eigen::Dynamic> sampled(Law::numFluxes,
+                                                                  std::ssize(shape.gaussSamples()));
+    for (Eigen::Index g = 0; g < sampled.cols(); ++g)
+      sampled.col(g) = at(shape.gaussSamples()[g]);
+    fluxes = sampled * shape.fromGaussToNodes().transpose();
   } else {
     const mesh::Shape<dim>& linear = referenceShape<dim>(withOrder(shape.type, 1));
     Eigen::Matrix<double, Law::numFluxes, 1 << dim> sampled;
@@ -220,10 +226,20 @@ Eigen::MatrixXd rootOfDensity(const Law& law) {
 constexpr std::array<std::array<double, 2>, 3> gauss{
     {{0.11270166537925831, 5.0 / 18}, {0.5, 8.0 / 18}, {0.88729833462074169, 5.0 / 18}}};
 
-/// A point of the unit square or cube in the reference element; returns the factor of the weight. For a
-/// simplex the cube's top shrinks to a point (Duffy).
+/// A point of the unit square or cube in the reference element; returns the factor of the weight. Of all but
+/// bricks the cube's top, or its edge, shrinks to a point (Duffy).
 template <int dim>
 double carry(const mesh::Shape<dim>& shape, mesh::Coordinates<dim>& place) {
+  if constexpr (dim == 3)
+    if (!shape.isSimplex && !shape.isBrick) {
+      if (numCornersOf(shape.type) == 6) {
+        place = {place[0] * (1 - place[1]), place[1], 2 * place[2] - 1};
+        return 2 * (1 - place[1]);
+      }
+      const double r = 1 - place[2];
+      place = {r * (2 * place[0] - 1), r * (2 * place[1] - 1), place[2]};
+      return 4 * r * r;
+    }
   if (!shape.isSimplex) {
     place = 2 * place - mesh::Coordinates<dim>::Ones();
     return 1 << dim;

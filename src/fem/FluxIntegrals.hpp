@@ -24,8 +24,8 @@ int numFluxes(Physics physics);
 int numSampledFluxes(mesh::CellType type);
 
 /// The flux as far as it is accurate, from the displacements at the nodes, node by node: of order 1 that at
-/// the centre, taken as constant; of order 2 values at the nodes, of bricks carried on from the points where
-/// the flux is most accurate.
+/// the centre, taken as constant; of order 2 values at the nodes, of all but simplices carried on from points
+/// inside, of bricks those where the flux is most accurate.
 /// \param fluxes  numFluxes × numSampledFluxes, overwritten, and resized if need be
 /// \param temperatureChange  at the nodes; its strain has no stress. Empty: none
 void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,

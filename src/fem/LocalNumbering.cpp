@@ -47,9 +47,11 @@ LocalNumbering::LocalNumbering(std::span<const GlobalOrdinal> corners, int nodes
     for (std::size_t c = k; c < corners.size(); c += nodesPerElement_) {
       place = locate(offsets_, place, corners[c]);
       corners_[c] = static_cast<int>(place);
-      ++numElementsAt_[place];
     }
   }
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    if (!isFilling(c))
+      ++numElementsAt_[corners_[c]];
   const GlobalOrdinal first = offsets_.front();
   for (GlobalOrdinal& offset : offsets_)
     offset -= first;

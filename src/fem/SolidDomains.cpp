@@ -66,7 +66,7 @@ bool SolidDomain::contains(const SolidBody& body, GlobalOrdinal element) const {
     return std::binary_search(elements_.begin(), elements_.end(), element);
   std::vector<Point> points;
   body.mesh.elementPoints(element, points);
-  const mesh::CellType type = body.mesh.cellType();
+  const mesh::CellType type = cellOf(body.mesh.cellType(), points.size());
   const auto corners = std::span(points).first(numCornersOf(type));
   return liesIn(mesh::centreOf(corners), box_, dimensionOf(type));
 }

@@ -113,10 +113,10 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions, 
     body.mesh.pointsAt(nodes, points);
     const Material& material = materialIn(body.solid, regions.of(body, surface.elements[f]));
     if (load.kind == SolidLoad::Kind::pressure)
-      pressureLoad(surface.facetType, points, physics, material, load.value[0], values,
+      pressureLoad(surface.typeOf(f), points, physics, material, load.value[0], values,
                    integrationOf(body.solid));
     else
-      tractionLoad(surface.facetType, points, physics, material, load.value, values,
+      tractionLoad(surface.typeOf(f), points, physics, material, load.value, values,
                    integrationOf(body.solid));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       NodalForce force{surface.elements[f], nodes[i], {0, 0, 0}};
@@ -207,14 +207,14 @@ void SolidLoads::addBodyForces(const SolidBody& body, const SolidRegions& region
       const SolidLoad& load = *force.load;
       if (load.kind == SolidLoad::Kind::rotation) {
         body.mesh.elementPoints(elements[e], points);
-        rotationLoad(body.mesh.cellType(), points, body.solid.physics, material, load, values,
-                     integrationOf(body.solid));
+        rotationLoad(cellOf(body.mesh.cellType(), points.size()), points, body.solid.physics, material, load,
+                     values, integrationOf(body.solid));
       } else {
         body.cornersOf(elements[e], points);
-        bodyForceLoad(body.mesh.cellType(), points, body.solid.physics, material, load.value, values,
-                      integrationOf(body.solid));
+        bodyForceLoad(cellOf(body.mesh.cellType(), points.size()), points, body.solid.physics, material,
+                      load.value, values, integrationOf(body.solid));
       }
-      loads.col(e) += values;
+      loads.col(e).head(values.size()) += values;
     });
 }
 
@@ -239,9 +239,9 @@ void SolidLoads::addThermalLoads(const SolidBody& body, const SolidRegions& regi
   for (std::size_t e = 0; e < elements.size(); ++e) {
     body.cornersOf(elements[e], points);
     temperatureChange(body.mesh, elements[e], change);
-    thermalLoad(body.mesh.cellType(), points, body.solid.physics, materialIn(body.solid, region[e]), change,
-                values, integrationOf(body.solid));
-    loads.col(e) += values;
+    thermalLoad(cellOf(body.mesh.cellType(), points.size()), points, body.solid.physics,
+                materialIn(body.solid, region[e]), change, values, integrationOf(body.solid));
+    loads.col(e).head(values.size()) += values;
   }
 }
 

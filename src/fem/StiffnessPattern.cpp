@@ -10,13 +10,14 @@ namespace {
 /// For each node, the corners of elements that lie at it, ascending.
 class CornersOfNodes {
 public:
-  explicit CornersOfNodes(const LocalNumbering& numbering)
-      : start_(numbering.numNodes() + 1, 0), corners_(numbering.corners().size()) {
+  explicit CornersOfNodes(const LocalNumbering& numbering) : start_(numbering.numNodes() + 1, 0) {
     const std::span<const int> number = numbering.numElementsAt(), nodeOf = numbering.corners();
     std::partial_sum(number.begin(), number.end(), start_.begin() + 1);
+    corners_.resize(start_.back());
     std::vector<int> next(start_.begin(), start_.end() - 1);
     for (std::size_t corner = 0; corner < nodeOf.size(); ++corner)
-      corners_[next[nodeOf[corner]]++] = static_cast<int>(corner);
+      if (!numbering.isFilling(corner))
+        corners_[next[nodeOf[corner]]++] = static_cast<int>(corner);
   }
 
   std::span<const int> operator[](std::size_t node) const {

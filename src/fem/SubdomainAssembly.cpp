@@ -104,8 +104,11 @@ void SubdomainAssembler::hold(AssembledSubdomain& subdomain) {
 }
 
 const Eigen::MatrixXd& SubdomainAssembler::stiffnessOf(GlobalOrdinal kind) {
-  if (kind != kindAtHand_)
+  if (kind != kindAtHand_) {
     model_.stiffness(kind, stiffness_);
+    if (const Eigen::Index size = model_.unknowns().unknownsPerElement(); stiffness_.rows() < size)
+      stiffness_.conservativeResizeLike(Eigen::MatrixXd::Zero(size, size));
+  }
   kindAtHand_ = kind;
   return stiffness_;
 }
@@ -155,21 +158,22 @@ void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const Stiffn
     };
     const auto heldAt = [&](std::size_t position) { return data.prescribed[position]; };
     const Eigen::MatrixXd& k = stiffnessOf(kinds_[e]);
-    for (Eigen::Index i = 0; i < k.rows(); ++i) {
+    const Eigen::Index size = std::ssize(nodes) * static_cast<Eigen::Index>(components_);
+    for (Eigen::Index i = 0; i < size; ++i) {
       if (subdomain.unknownOf[positionOf(i)] >= 0)
         continue;
       const auto row =
           std::lower_bound(positions.begin(), positions.end(), positionOf(i)) - positions.begin();
       data.heldForces[row] += loads_(i, e);
-      for (Eigen::Index j = 0; j < k.cols(); ++j)
+      for (Eigen::Index j = 0; j < size; ++j)
         entries_.emplace_back(static_cast<int>(row), static_cast<int>(positionOf(j)), k(i, j));
     }
-    for (Eigen::Index j = 0; j < k.cols(); ++j) {
+    for (Eigen::Index j = 0; j < size; ++j) {
       const double held = heldAt(positionOf(j)); // 0 at the free positions
       if (held == 0)
         continue;
       data.heldWork += loads_(j, e) * held;
-      for (Eigen::Index i = 0; i < k.rows(); ++i) {
+      for (Eigen::Index i = 0; i < size; ++i) {
         const std::size_t other = positionOf(i);
         if (subdomain.unknownOf[other] >= 0)
           data.reaction[subdomain.unknownOf[other]] += k(i, j) * held;

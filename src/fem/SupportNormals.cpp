@@ -31,7 +31,7 @@ struct Facets {
     std::vector<Point> corners;
     for (std::size_t f = 0; f < nodesOf.size(); ++f) {
       mesh.pointsAt(surface.facet(f), corners);
-      areas.push_back(areaVector(surface.facetType, corners));
+      areas.push_back(areaVector(surface.typeOf(f), corners));
       normals.push_back(areas.back().normalized());
       for (const GlobalOrdinal node : surface.facet(f)) {
         const std::size_t place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();

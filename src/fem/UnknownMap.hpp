@@ -22,10 +22,11 @@ public:
   [[nodiscard]] int components() const { return components_; }
   /// Of the whole body.
   [[nodiscard]] GlobalOrdinal numNodes() const { return mesh_->numNodes(); }
+  /// Length of rows (Cell.hpp).
   [[nodiscard]] int nodesPerElement() const { return numNodesOf(mesh_->cellType()); }
-  /// Unknowns an element: size of its stiffness.
+  /// Unknowns of a row: size of the largest elements' stiffness.
   [[nodiscard]] int unknownsPerElement() const { return nodesPerElement() * components_; }
-  /// Nodes of elements, one element after the other, in the order of the shape functions; quickest where the
+  /// Nodes of elements, one row after the other, in the order of the shape functions; quickest where the
   /// elements ascend.
   void elementNodes(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> nodes) const {
     mesh_->elementNodes(elements, nodes);

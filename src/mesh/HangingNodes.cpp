@@ -67,11 +67,11 @@ double distanceFrom(CellType type, std::span<const Point> facet, const Point& po
 
 std::optional<HangingNode> findHangingNode(const MeshArrays& mesh, const MeshTopology& topology,
                                            const BoxTree& tree) {
-  const auto facets = facetsOf(mesh.cellType);
   std::vector<Point> corners;
   std::vector<std::size_t> found;
   for (LocalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const auto nodes = nodesOf(mesh.cellType, mesh.cells, element);
+    const auto facets = facetsOf(cellOf(mesh.cellType, nodes.size()));
     for (std::size_t f = 0; f < facets.size(); ++f) {
       if (topology.across(element, f) >= 0)
         continue;
@@ -84,7 +84,7 @@ std::optional<HangingNode> findHangingNode(const MeshArrays& mesh, const MeshTop
         const auto node = static_cast<LocalOrdinal>(place);
         if (!topology.isOnBoundary(node) || std::find(nodes.begin(), nodes.end(), node) != nodes.end())
           continue; // inner nodes touch no unmatched facet
-        const double distance = distanceFrom(facetTypeOf(mesh.cellType), corners, mesh.points[node]);
+        const double distance = distanceFrom(facets[f].type, corners, mesh.points[node]);
         if (distance <= tolerance &&
             distance <= neighbourTolerance * distanceToNeighbours(node, mesh, topology))
           return HangingNode{node, element};

@@ -125,6 +125,24 @@ private:
   Eigen::MatrixXd toCoefficients_;
 };
 
+/// The point of a reference element that a point of the brick [−1, 1]^dim is carried to, of a simplex or
+/// brick itself: prisms and pyramids are bricks that have shrunk to an edge or a point, and their
+/// determinants polynomials of the brick's degrees there. A pyramid's top depends on where one comes from,
+/// and is left out.
+template <int dim>
+Coordinates<dim> carried(const Shape<dim>& shape, const Coordinates<dim>& at) {
+  if constexpr (dim == 3)
+    if (!shape.isSimplex && !shape.isBrick) {
+      constexpr double nextToTop = 0x1p-20; // of which 1 − (1 − r) is exact
+      const Coordinates<3> part = 0.5 * (at + Coordinates<3>::Ones());
+      if (numCornersOf(shape.type) == 6)
+        return {part[0] * (1 - part[1]), part[1], at[2]};
+      const double r = std::max(1 - part[2], nextToTop);
+      return {r * at[0], r * at[1], 1 - r};
+    }
+  return at;
+}
+
 /// Made once. Precondition: order 2.
 template <int dim>
 const Bernstein<dim>& basisOf(const Shape<dim>& shape) {
@@ -144,12 +162,13 @@ double leastDeterminantOf(const Shape<dim>& shape, std::span<const Point> points
     return ElementMap<dim>(corners, shape.sampleAt(xi)).determinant();
   };
   std::vector<Part<dim>> parts(1);
+  const auto inBrick = [&](const Coordinates<dim>& at) { return determinant(carried(shape, at)); };
   double sound = determinant(shape.centre()); // bound on the parts that are settled
   for (int halving = 0;; ++halving) {
     std::vector<Part<dim>> doubtful;
     double doubt = sound;
     for (const Part<dim>& part : parts) {
-      const auto [value, coefficient] = basis.least(part, determinant);
+      const auto [value, coefficient] = basis.least(part, inBrick);
       if (value <= 0)
         return value;
       if (coefficient > 0)

@@ -16,17 +16,30 @@ namespace epafi::mesh {
 
 /// A named part of a body's boundary, whole on every rank: facets, each with the element that it bounds.
 struct Surface {
-  CellType facetType = CellType::line;
-  /// nodesPerFacet() each, in an order that makes the normal point outwards.
+  CellType facetType = CellType::line; ///< of the largest facets that the mesh may have
+  /// In rows (Cell.hpp) of nodesPerFacet() each, in an order that makes the normal point outwards.
   std::vector<GlobalOrdinal> facetNodes;
   std::vector<GlobalOrdinal> elements; ///< of each facet
 
-  [[nodiscard]] int nodesPerFacet() const { return numNodesOf(facetType); } ///< the same for all
+  [[nodiscard]] int nodesPerFacet() const { return numNodesOf(facetType); } ///< length of the rows
   [[nodiscard]] std::size_t numFacets() const { return elements.size(); }   ///< of the whole surface
   /// Nodes of one facet.
   [[nodiscard]] std::span<const GlobalOrdinal> facet(std::size_t number) const {
     const std::size_t count = nodesPerFacet();
-    return std::span(facetNodes).subspan(number * count, count);
+    return withoutFilling(std::span(facetNodes).subspan(number * count, count));
+  }
+  /// What one facet is.
+  [[nodiscard]] CellType typeOf(std::size_t number) const { return cellOf(facetType, facet(number).size()); }
+  /// Corners of one facet.
+  [[nodiscard]] std::span<const GlobalOrdinal> corners(std::size_t number) const {
+    return facet(number).first(numCornersOf(typeOf(number)));
+  }
+  /// Adds a facet without its element. \param nodes  in any container
+  template <class Nodes>
+  void add(const Nodes& nodes) {
+    const std::size_t first = facetNodes.size();
+    facetNodes.insert(facetNodes.end(), nodes.begin(), nodes.end());
+    fillRow(facetNodes, first, nodesPerFacet());
   }
 };
 
@@ -41,13 +54,13 @@ public:
   [[nodiscard]] virtual const StructuredMesh* structured() const { return nullptr; }
   /// The mesh itself if it is one rank's piece of a body's, else null.
   [[nodiscard]] virtual const MeshPart* part() const { return nullptr; }
-  [[nodiscard]] virtual CellType cellType() const = 0;         ///< of all its elements
+  [[nodiscard]] virtual CellType cellType() const = 0;         ///< of its largest elements
   [[nodiscard]] virtual GlobalOrdinal numNodes() const = 0;    ///< of the whole body
   [[nodiscard]] virtual GlobalOrdinal numElements() const = 0; ///< likewise
-  /// Nodes an element (the same for all elements of a mesh).
+  /// Length of the rows (Cell.hpp) in which elementNodes() gives the nodes of its elements.
   [[nodiscard]] int nodesPerElement() const { return numNodesOf(cellType()); }
   [[nodiscard]] virtual Point point(GlobalOrdinal node) const = 0; ///< where a node lies
-  /// Nodes of an element in the order of its shape functions (Cell.hpp).
+  /// Nodes of an element in the order of its shape functions (Cell.hpp), in a row of nodesPerElement().
   virtual void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const = 0;
   /// The same for many elements, one after the other; quickest where the elements ascend.
   virtual void elementNodes(std::span<const GlobalOrdinal> elements,
@@ -85,10 +98,15 @@ public:
 class ElementNodes {
 public:
   /// Of the element of a mesh.
-  ElementNodes(const Mesh& mesh, GlobalOrdinal element) : number_(mesh.nodesPerElement()) {
-    mesh.elementNodes(element, std::span(nodes_).first(number_));
+  ElementNodes(const Mesh& mesh, GlobalOrdinal element) {
+    const CellType largest = mesh.cellType();
+    const auto row = std::span(nodes_).first(numNodesOf(largest));
+    mesh.elementNodes(element, row);
+    number_ = withoutFilling(std::span<const GlobalOrdinal>(row)).size();
+    type_ = cellOf(largest, number_);
   }
-  [[nodiscard]] std::size_t size() const { return number_; } ///< nodes an element
+  [[nodiscard]] CellType type() const { return type_; }      ///< what the element is
+  [[nodiscard]] std::size_t size() const { return number_; } ///< its number of nodes
   /// The i-th.
   [[nodiscard]] GlobalOrdinal operator[](std::size_t i) const { return nodes_[i]; }
   [[nodiscard]] const GlobalOrdinal* begin() const { return nodes_.data(); }         ///< the first
@@ -96,7 +114,8 @@ public:
 
 private:
   std::array<GlobalOrdinal, mostNodes> nodes_{};
-  std::size_t number_;
+  std::size_t number_ = 0;
+  CellType type_{};
 };
 
 inline std::vector<GlobalOrdinal> Mesh::nodeSet(const std::string& /*name*/) const {

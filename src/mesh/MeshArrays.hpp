@@ -13,8 +13,8 @@
 
 namespace epafi::mesh {
 
-/// A named part of the boundary: facets by their corners, as many each as facets of the cells have, in any
-/// order round the facet.
+/// A named part of the boundary: facets by their corners, in rows (Cell.hpp) as long as the largest facet of
+/// the cells has corners, in any order round the facet.
 struct NamedFacets {
   std::string name;
   std::vector<LocalOrdinal> nodes;
@@ -32,10 +32,10 @@ struct NamedNodes {
 };
 
 struct MeshArrays {
-  std::string name; ///< how errors call the body, such as `"plate" of "press.msh"`
-  CellType cellType = CellType::triangle;
+  std::string name;                       ///< how errors call the body, such as `"plate" of "press.msh"`
+  CellType cellType = CellType::triangle; ///< of the largest elements
   std::vector<Point> points;
-  std::vector<LocalOrdinal> cells; ///< nodes of the elements, numNodesOf(cellType) each
+  std::vector<LocalOrdinal> cells; ///< nodes of the elements, in rows (Cell.hpp) of numNodesOf(cellType) each
   std::vector<NamedFacets> surfaces;
   std::vector<NamedElements> groups;
   std::vector<NamedNodes> nodeSets;
@@ -47,11 +47,17 @@ struct MeshArrays {
   }
 };
 
-/// The nodes of one element among those of all.
-inline std::span<const LocalOrdinal> nodesOf(CellType type, std::span<const LocalOrdinal> cells,
-                                             std::size_t element) {
-  const std::size_t count = numNodesOf(type);
+/// The row of one element among those of all. \param largest  type of the largest
+inline std::span<const LocalOrdinal> rowOf(CellType largest, std::span<const LocalOrdinal> cells,
+                                           std::size_t element) {
+  const std::size_t count = numNodesOf(largest);
   return cells.subspan(element * count, count);
+}
+
+/// The nodes of one element.
+inline std::span<const LocalOrdinal> nodesOf(CellType largest, std::span<const LocalOrdinal> cells,
+                                             std::size_t element) {
+  return withoutFilling(rowOf(largest, cells, element));
 }
 
 } // namespace epafi::mesh

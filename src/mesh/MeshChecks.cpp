@@ -71,20 +71,23 @@ ElementShape Checker::shape(LocalOrdinal number) const {
   const auto places = nodes(number);
   for (std::size_t i = 0; i < places.size(); ++i)
     corners[i] = mesh_.points[index(places[i])];
-  return shapeOf(mesh_.cellType, std::span<const Point>(corners.data(), places.size()));
+  return shapeOf(cellOf(mesh_.cellType, places.size()),
+                 std::span<const Point>(corners.data(), places.size()));
 }
 
 bool Checker::haveSameNodes(LocalOrdinal a, LocalOrdinal b) const {
-  return std::is_permutation(nodes(a).begin(), nodes(a).end(), nodes(b).begin());
+  return std::is_permutation(nodes(a).begin(), nodes(a).end(), nodes(b).begin(), nodes(b).end());
 }
 
 void Checker::checkNodes() const {
   for (LocalOrdinal e = 0; e < mesh_.numElements(); ++e) {
-    const auto own = nodes(e);
+    auto own = nodes(e);
+    if (const CellType type = cellOf(mesh_.cellType, own.size()); type == mesh_.cellType)
+      own = rowOf(type, mesh_.cells, index(e));
     for (auto next = own.begin(); next != own.end(); ++next)
       if (std::find(own.begin(), next, *next) != next)
         refuse(element(e) + " has " + node(*next) + " twice; give it " +
-               std::to_string(numNodesOf(mesh_.cellType)) + " different nodes, or use elements of one shape");
+               std::to_string(numNodesOf(mesh_.cellType)) + " different nodes");
   }
   for (std::size_t n = 0; n < mesh_.points.size(); ++n)
     if (topology_.elementsOf(n).empty())
@@ -213,7 +216,7 @@ void Checker::checkSharing() const {
       if (other < 0)
         continue;
       const auto own = nodes(e), others = nodes(other);
-      for (const int place : facetsOf(mesh_.cellType)[f])
+      for (const int place : facetsOf(cellOf(mesh_.cellType, own.size()))[f])
         if (const LocalOrdinal shared = own[index(place)];
             std::find(others.begin(), others.end(), shared) == others.end())
           refuse(element(e) + " and " + element(other) + " share the corners of one " + facet_ +

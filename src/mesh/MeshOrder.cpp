@@ -14,25 +14,30 @@ namespace {
 class Completion {
 public:
   Completion(MeshArrays mesh, bool hasEdgeNodes, InnerNodes inner)
-      : mesh_(std::move(mesh)), given_(index(numCornersOf(mesh_.cellType))), edges_(edgesOf(mesh_.cellType)),
-        hasEdgeNodes_(hasEdgeNodes) {
-    if (hasEdgeNodes)
-      given_ += edges_.size() / 2;
+      : mesh_(std::move(mesh)), hasEdgeNodes_(hasEdgeNodes) {
     const CellType type = withOrder(mesh_.cellType, 2);
-    mesh_.cellType = inner == InnerNodes::added ? withInnerNodes(type) : withoutInnerNodes(type);
+    given_ = mesh_.cellType = hasEdgeNodes ? withoutInnerNodes(type) : withOrder(type, 1);
+    bool takesInner = inner == InnerNodes::added;
+    for (std::size_t e = 0; dimensionOf(type) == 3 && e < index(mesh_.numElements()); ++e)
+      takesInner = takesInner && nodesOf(given_, mesh_.cells, e).size() == index(numNodesOf(given_));
+    mesh_.cellType = takesInner ? withInnerNodes(type) : withoutInnerNodes(type);
   }
 
   MeshArrays make() {
     const std::vector<LocalOrdinal> cells = std::exchange(mesh_.cells, {});
-    for (std::size_t first = 0; first < cells.size(); first += given_) {
-      nodes_.assign(cells.begin() + first, cells.begin() + (first + given_));
+    const auto perElement = index(numNodesOf(mesh_.cellType));
+    for (std::size_t e = 0; e * index(numNodesOf(given_)) < cells.size(); ++e) {
+      const auto nodes = nodesOf(given_, cells, e);
+      nodes_.assign(nodes.begin(), nodes.end());
+      const CellType type = cellOf(given_, nodes.size());
       if (!hasEdgeNodes_)
-        addEdgeNodes();
+        addEdgeNodes(edgesOf(type));
       if (mesh_.cellType == CellType::hexahedron27)
         addFaceNodes();
-      if (mesh_.cellType == CellType::hexahedron27 || mesh_.cellType == CellType::quadrilateral9)
+      if (nodes_.size() + 1 == perElement) // the largest one lacks its centre
         nodes_.push_back(addPoint(middle(nodes_, dimensionOf(mesh_.cellType))));
       mesh_.cells.insert(mesh_.cells.end(), nodes_.begin(), nodes_.end());
+      fillRow(mesh_.cells, e * perElement, perElement);
     }
     return std::move(mesh_);
   }
@@ -44,9 +49,9 @@ private:
     return static_cast<LocalOrdinal>(mesh_.points.size()) - 1;
   }
 
-  void addEdgeNodes() {
-    for (std::size_t e = 0; e < edges_.size(); e += 2) {
-      const auto ends = std::minmax(nodes_[index(edges_[e])], nodes_[index(edges_[e + 1])]);
+  void addEdgeNodes(std::span<const int> edges) {
+    for (std::size_t e = 0; e < edges.size(); e += 2) {
+      const auto ends = std::minmax(nodes_[index(edges[e])], nodes_[index(edges[e + 1])]);
       const auto [place, isNew] = onEdge_.try_emplace(ends, 0);
       if (isNew) {
         const Point &a = mesh_.points[index(ends.first)], &b = mesh_.points[index(ends.second)];
@@ -89,8 +94,7 @@ private:
   }
 
   MeshArrays mesh_;
-  std::size_t given_; ///< nodes a cell
-  std::span<const int> edges_;
+  CellType given_{}; ///< of the largest cells
   bool hasEdgeNodes_;
   std::vector<LocalOrdinal> nodes_; ///< of the cell at hand
   std::map<std::pair<LocalOrdinal, LocalOrdinal>, LocalOrdinal> onEdge_;
@@ -104,15 +108,17 @@ MeshArrays completed(MeshArrays mesh, bool hasEdgeNodes, InnerNodes inner) {
 }
 
 MeshArrays linearised(MeshArrays mesh) {
-  const std::size_t perElement = index(numNodesOf(mesh.cellType)),
-                    corners = index(numCornersOf(mesh.cellType));
+  const auto perElement = index(numCornersOf(mesh.cellType));
   std::vector<LocalOrdinal> number(mesh.points.size(), -1);
   std::vector<LocalOrdinal> cells;
-  for (std::size_t i = 0; i < mesh.cells.size(); ++i)
-    if (i % perElement < corners) {
-      cells.push_back(mesh.cells[i]);
-      number[index(mesh.cells[i])] = 0;
+  for (std::size_t e = 0; e < index(mesh.numElements()); ++e) {
+    const auto nodes = nodesOf(mesh.cellType, mesh.cells, e);
+    for (const LocalOrdinal node : nodes.first(index(numCornersOf(cellOf(mesh.cellType, nodes.size()))))) {
+      cells.push_back(node);
+      number[index(node)] = 0;
     }
+    fillRow(cells, e * perElement, perElement);
+  }
   LocalOrdinal next = 0;
   for (std::size_t node = 0; node < number.size(); ++node)
     if (number[node] == 0) {

@@ -20,7 +20,8 @@ enum class InnerNodes {
 /// \param mesh  cells with their corners and, if `hasEdgeNodes`, the nodes on their edges, in the order of
 /// Cell.hpp; `cellType` of any order. Nodes of surfaces are corners of facets
 /// \param hasEdgeNodes  whether the cells have them
-/// \param inner  whether quadrilaterals and bricks are to have inner nodes
+/// \param inner  whether quadrilaterals and bricks are to have inner nodes; bricks beside other cells, which
+/// have none on their faces, never do
 MeshArrays completed(MeshArrays mesh, bool hasEdgeNodes, InnerNodes inner = InnerNodes::added);
 
 /// The corners alone; all others are dropped.

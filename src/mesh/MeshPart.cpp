@@ -58,7 +58,7 @@ std::unique_ptr<const MeshPart> MeshPart::ofOrder1() const {
   PartArrays part(arrays_);
   part.cellType = withOrder(arrays_.cellType, 1);
   part.numNodes = arrays_.numCorners;
-  const auto corners = index(numCornersOf(part.cellType));
+  const auto perElement = index(numNodesOf(part.cellType));
   std::vector<LocalOrdinal> place(arrays_.nodes.size(), -1); // of order 1
   part.nodes.clear();
   part.points.clear();
@@ -75,8 +75,9 @@ std::unique_ptr<const MeshPart> MeshPart::ofOrder1() const {
   part.cells.clear();
   for (std::size_t element = 0; element < arrays_.elements.size(); ++element) {
     const auto nodes = nodesOf(arrays_.cellType, arrays_.cells, element);
-    for (std::size_t i = 0; i < corners; ++i)
-      part.cells.push_back(place[index(nodes[i])]);
+    for (const LocalOrdinal node : nodes.first(index(numCornersOf(cellOf(arrays_.cellType, nodes.size())))))
+      part.cells.push_back(place[index(node)]);
+    fillRow(part.cells, element * perElement, perElement);
   }
   for (auto& [name, nodes] : part.nodeSets) {
     std::erase_if(nodes, [&](GlobalOrdinal node) { return arrays_.cornerNumbers[placeOf(node)] < 0; });
@@ -86,15 +87,19 @@ std::unique_ptr<const MeshPart> MeshPart::ofOrder1() const {
   for (auto& [name, surface] : part.surfaces) {
     const Surface whole = std::move(surface);
     surface = {facetTypeOf(part.cellType), {}, whole.elements};
-    for (std::size_t f = 0; f < whole.numFacets(); ++f)
-      for (const GlobalOrdinal node : whole.facet(f).first(index(numCornersOf(whole.facetType))))
-        surface.facetNodes.push_back(arrays_.cornerNumbers[placeOf(node)]);
+    std::vector<GlobalOrdinal> facet;
+    for (std::size_t f = 0; f < whole.numFacets(); ++f) {
+      facet.clear();
+      for (const GlobalOrdinal node : whole.corners(f))
+        facet.push_back(arrays_.cornerNumbers[placeOf(node)]);
+      surface.add(facet);
+    }
   }
   return std::make_unique<const MeshPart>(std::move(part));
 }
 
 void MeshPart::elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const {
-  const auto own = nodesOf(arrays_.cellType, arrays_.cells, placeOfElement(element));
+  const auto own = rowOf(arrays_.cellType, arrays_.cells, placeOfElement(element));
   std::transform(own.begin(), own.end(), nodes.begin(),
                  [&](LocalOrdinal place) { return arrays_.nodes[index(place)]; });
 }

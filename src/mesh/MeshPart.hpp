@@ -18,12 +18,12 @@ namespace epafi::mesh {
 
 /// What a piece consists of.
 struct PartArrays {
-  CellType cellType = CellType::triangle;
+  CellType cellType = CellType::triangle;      ///< of the largest elements
   GlobalOrdinal numNodes = 0, numElements = 0; ///< of the whole body
   GlobalOrdinal numCorners = 0;                ///< nodes of the whole body that are corners of elements
   std::array<Point, 2> box{};                  ///< of all its nodes: lower and upper
   std::vector<GlobalOrdinal> elements, nodes;  ///< held ones, ascending
-  std::vector<LocalOrdinal> cells;             ///< nodes of the held elements, as places in `nodes`
+  std::vector<LocalOrdinal> cells;             ///< rows of the held elements, as places in `nodes`
   std::vector<Point> points;                   ///< of the held nodes
   std::vector<GlobalOrdinal> cornerNumbers;    ///< of the held nodes, among the body's corners; −1: none
   std::vector<std::uint8_t> isOnBoundary;      ///< of the held nodes

@@ -7,6 +7,10 @@
 namespace epafi::mesh {
 namespace {
 
+CellType typeOfRow(CellType largest, std::span<const LocalOrdinal> row) {
+  return cellOf(largest, withoutFilling(row).size());
+}
+
 /// A facet in the bucket of its lowest corner: its other corners, ascending (those that it lacks: −1), and
 /// its place among the facets of all elements.
 struct BucketEntry {
@@ -16,14 +20,15 @@ struct BucketEntry {
 
 /// Calls `visit(place, corners)` for every facet of every element; the corners ascend.
 template <class Visit>
-void forEachFacet(CellType type, std::span<const LocalOrdinal> cells, const Visit& visit) {
-  const std::size_t perElement = numNodesOf(type);
-  const std::size_t perFacet = numCornersOf(facetTypeOf(type));
-  const auto facets = facetsOf(type);
+void forEachFacet(CellType largest, std::span<const LocalOrdinal> cells, const Visit& visit) {
+  const std::size_t perElement = numNodesOf(largest);
+  const auto most = static_cast<std::uint32_t>(facetsOf(largest).size());
   std::array<LocalOrdinal, mostFacetCorners> nodes{};
-  std::uint32_t number = 0;
-  for (std::size_t first = 0; first < cells.size(); first += perElement)
-    for (const Facet& facet : facets) {
+  std::uint32_t begin = 0;
+  for (std::size_t first = 0; first < cells.size(); first += perElement, begin += most) {
+    std::uint32_t number = begin;
+    for (const Facet& facet : facetsOf(typeOfRow(largest, cells.subspan(first, perElement)))) {
+      const std::size_t perFacet = numCornersOf(facet.type);
       for (std::size_t i = 0; i < perFacet; ++i) { // sorted by insertion
         const LocalOrdinal node = cells[first + facet[i]];
         std::size_t place = i;
@@ -33,6 +38,7 @@ void forEachFacet(CellType type, std::span<const LocalOrdinal> cells, const Visi
       }
       visit(number++, std::span<const LocalOrdinal>(nodes.data(), perFacet));
     }
+  }
 }
 
 /// Turns counts, of which that of bucket n stands at n + 1, into the places where the buckets begin.
@@ -43,8 +49,8 @@ void accumulate(std::vector<std::size_t>& counts) {
 
 } // namespace
 
-MeshTopology::MeshTopology(CellType type, LocalOrdinal numNodes, std::span<const LocalOrdinal> cells)
-    : type_(type), facetsPerElement_(facetsOf(type).size()) {
+MeshTopology::MeshTopology(CellType largest, LocalOrdinal numNodes, std::span<const LocalOrdinal> cells)
+    : largest_(largest), facetsPerElement_(facetsOf(largest).size()) {
   findElementsOfNodes(numNodes, cells);
   pairFacets(numNodes, cells);
   markBoundary(cells);
@@ -56,31 +62,36 @@ std::span<const LocalOrdinal> MeshTopology::elementsOf(std::size_t node) const {
 
 void MeshTopology::findElementsOfNodes(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
   firstElement_.assign(std::size_t{1} + numNodes, 0);
-  for (const LocalOrdinal node : cells)
-    ++firstElement_[node + 1];
-  accumulate(firstElement_);
-  elements_.resize(cells.size());
-  std::vector<std::size_t> next(firstElement_.begin(), firstElement_.end() - 1);
-  const std::size_t perElement = numNodesOf(type_);
+  const std::size_t perElement = numNodesOf(largest_);
+  const auto isFilling = [&](std::size_t i) {
+    return i > 0 && cells[i] == cells[i - 1] && i % perElement > 0;
+  };
   for (std::size_t i = 0; i < cells.size(); ++i)
-    elements_[next[cells[i]]++] = static_cast<LocalOrdinal>(i / perElement);
+    if (!isFilling(i))
+      ++firstElement_[cells[i] + 1];
+  accumulate(firstElement_);
+  elements_.resize(firstElement_.back());
+  std::vector<std::size_t> next(firstElement_.begin(), firstElement_.end() - 1);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (!isFilling(i))
+      elements_[next[cells[i]]++] = static_cast<LocalOrdinal>(i / perElement);
 }
 
 void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
   // Buckets by lowest node: each holds a few dozen facets, whatever the mesh's size.
   std::vector<std::size_t> first(std::size_t{1} + numNodes, 0);
-  forEachFacet(type_, cells,
+  forEachFacet(largest_, cells,
                [&](std::uint32_t, std::span<const LocalOrdinal> nodes) { ++first[nodes[0] + 1]; });
   accumulate(first);
   std::vector<BucketEntry> facets(first.back());
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  forEachFacet(type_, cells, [&](std::uint32_t place, std::span<const LocalOrdinal> nodes) {
+  forEachFacet(largest_, cells, [&](std::uint32_t place, std::span<const LocalOrdinal> nodes) {
     BucketEntry& facet = facets[next[nodes[0]]++];
     facet = {{-1, -1, -1}, place};
     std::copy(nodes.begin() + 1, nodes.end(), facet.others.begin());
   });
 
-  across_.assign(facets.size(), -1);
+  across_.assign(cells.size() / numNodesOf(largest_) * facetsPerElement_, -1);
   const auto elementOf = [&](const BucketEntry& facet) {
     return static_cast<LocalOrdinal>(facet.place / facetsPerElement_);
   };
@@ -106,12 +117,15 @@ void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdina
 
 void MeshTopology::markBoundary(std::span<const LocalOrdinal> cells) {
   isOnBoundary_.assign(firstElement_.size() - 1, 0);
-  const std::size_t perElement = numNodesOf(type_);
-  const auto facets = facetsOf(type_);
-  for (std::size_t place = 0; place < across_.size(); ++place)
-    if (across_[place] < 0)
-      for (const int node : facets[place % facetsPerElement_])
-        isOnBoundary_[cells[place / facetsPerElement_ * perElement + node]] = 1;
+  const std::size_t perElement = numNodesOf(largest_);
+  for (std::size_t e = 0; e * perElement < cells.size(); ++e) {
+    const auto row = cells.subspan(e * perElement, perElement);
+    const auto facets = facetsOf(typeOfRow(largest_, row));
+    for (std::size_t f = 0; f < facets.size(); ++f)
+      if (across(e, f) < 0)
+        for (const int node : facets[f])
+          isOnBoundary_[row[node]] = 1;
+  }
 }
 
 } // namespace epafi::mesh

@@ -19,12 +19,14 @@ public:
   /// Three of the elements that share one facet, ascending.
   using Crowd = std::array<LocalOrdinal, 3>;
 
-  /// \param cells  nodes of the elements, numNodesOf(type) each, all in [0, numNodes).
-  MeshTopology(CellType type, LocalOrdinal numNodes, std::span<const LocalOrdinal> cells);
+  /// \param largest  type of the largest elements
+  /// \param cells nodes of the elements, in rows (Cell.hpp) of numNodesOf(largest) each, all in [0,
+  /// numNodes).
+  MeshTopology(CellType largest, LocalOrdinal numNodes, std::span<const LocalOrdinal> cells);
 
   /// Elements that touch a node, ascending.
   [[nodiscard]] std::span<const LocalOrdinal> elementsOf(std::size_t node) const;
-  /// The element across the facet facetsOf(type)[facet]; −1: none, the facet lies on the boundary.
+  /// The element across the facet facetsOf(its type)[facet]; −1: none, the facet lies on the boundary.
   [[nodiscard]] LocalOrdinal across(std::size_t element, std::size_t facet) const {
     return across_[element * facetsPerElement_ + facet];
   }
@@ -38,11 +40,11 @@ private:
   void pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells);
   void markBoundary(std::span<const LocalOrdinal> cells);
 
-  CellType type_;
-  std::size_t facetsPerElement_;
+  CellType largest_;
+  std::size_t facetsPerElement_;          ///< of the largest
   std::vector<std::size_t> firstElement_; ///< of each node in elements_, and the end
   std::vector<LocalOrdinal> elements_;
-  std::vector<LocalOrdinal> across_; ///< facets of an element one after the other
+  std::vector<LocalOrdinal> across_; ///< facets of an element one after the other, −1 behind them
   std::vector<std::uint8_t> isOnBoundary_;
   std::optional<Crowd> crowdedFacet_;
 };

@@ -1,5 +1,8 @@
 #include "epafi/mesh/ShapeFunctions.hpp"
 
+#include "epafi/direct/DenseOrthogonal.hpp"
+#include "epafi/mesh/PrismsAndPyramids.hpp"
+
 #include <array>
 #include <cmath>
 #include <memory>
@@ -22,14 +25,6 @@ Eigen::Matrix<double, dim, dim + 1> barycentricGradients() {
   gradients << Coordinates<dim>::Constant(-1), Eigen::Matrix<double, dim, dim>::Identity();
   return gradients;
 }
-
-template <int dim>
-struct RulePoint {
-  Coordinates<dim> xi;
-  double weight;
-};
-template <int dim>
-using Rule = std::vector<RulePoint<dim>>;
 
 /// A rule that a simplex's symmetries do not change: the orbits of points with all barycentric coordinates
 /// `a` but one, and (tetrahedra) of those with two of each value. Weights are shares of the reference
@@ -132,8 +127,9 @@ double slope(int order, double place, double x) {
   return place == 0 ? -2 * x : x + 0.5 * place;
 }
 
-double measureOfReference(int dim, bool isSimplex) {
-  return !isSimplex ? 1 << dim : dim == 1 ? 1.0 : dim == 2 ? 1.0 / 2 : 1.0 / 6;
+double measureOfReference(int dim, int corners) {
+  constexpr std::array solids{1.0 / 6, 4.0 / 3, 1.0, 0.0, 8.0}; // of 4 to 8 corners
+  return dim == 1 ? 1 : dim == 2 ? (corners == 3 ? 0.5 : 4) : solids[corners - 4];
 }
 
 template <int dim>
@@ -148,25 +144,54 @@ std::vector<ShapeSample<dim>> samplesOf(const Shape<dim>& shape, const Rule<dim>
 
 template <int dim>
 Shape<dim>::Shape(CellType shapeType)
-    : type(shapeType), isSimplex(numCornersOf(type) == dim + 1), order(orderOf(type)),
-      numNodes(numNodesOf(type)), measure(measureOfReference(dim, isSimplex)) {
+    : type(shapeType), isSimplex(numCornersOf(type) == dim + 1),
+      isBrick(!isSimplex && numCornersOf(type) == 1 << dim), order(orderOf(type)), numNodes(numNodesOf(type)),
+      measure(measureOfReference(dim, numCornersOf(type))) {
   placeNodes();
   findFollowers();
-  centreSample_ = sampleAt(Coordinates<dim>::Constant(isSimplex ? 1.0 / (dim + 1) : 0.0), measure);
-  if (!isSimplex) {
+  Coordinates<dim> centre = Coordinates<dim>::Constant(isSimplex ? 1.0 / (dim + 1) : 0.0);
+  if constexpr (dim == 3)
+    if (!isSimplex && !isBrick)
+      centre = numCornersOf(type) == 5 ? Coordinates<3>(0, 0, 0.25) : Coordinates<3>(1.0 / 3, 1.0 / 3, 0);
+  centreSample_ = sampleAt(centre, measure);
+  setSamples();
+  for (int a = 0; a < numNodes; ++a)
+    nodeSamples_.push_back(sampleAt(node(a)));
+}
+
+template <int dim>
+void Shape<dim>::setSamples() {
+  if (isBrick) {
     gaussSamples_ = samplesOf(*this, productRule<dim>(nodes_));
     if (order == 2)
       reducedSamples_ = samplesOf(*this, productRule<dim>(nodes_.leftCols(1 << dim)));
-  } else if (order == 1) {
+  } else if (isSimplex && order == 1) {
     gaussSamples_ = {centreSample_};
     revolvedSamples_ = samplesOf(*this, dim == 1 ? lowDegree<dim>(measure) : highDegree<dim>(measure));
-  } else {
+  } else if (isSimplex) {
     gaussSamples_ = samplesOf(*this, lowDegree<dim>(measure));
     fineSamples_ = samplesOf(*this, highDegree<dim>(measure));
     reducedSamples_ = samplesOf(*this, reducedRule<dim>());
+  } else if constexpr (dim == 3) {
+    const Rule<2> centre{{Coordinates<2>::Constant(1.0 / 3), 0.5}}, low = lowDegree<2>(0.5);
+    if (numCornersOf(type) == 5) {
+      gaussSamples_ = samplesOf(*this, pyramidRule(order));
+    } else {
+      gaussSamples_ = samplesOf(*this, prismRule(order, order == 1 ? low : highDegree<2>(0.5)));
+      reducedSamples_ = samplesOf(*this, prismRule(order, order == 1 ? centre : low));
+    }
+    if (order == 1)
+      return;
+    const Shape<3> linear(withOrder(type, 1));
+    Eigen::MatrixXd atSamples(gaussSamples_.size(), linear.numNodes), atNodes(numNodes, linear.numNodes);
+    for (Eigen::Index g = 0; g < atSamples.rows(); ++g)
+      atSamples.row(g) = linear.values(gaussSamples_[g].xi).transpose();
+    for (int a = 0; a < numNodes; ++a)
+      atNodes.row(a) = linear.values(node(a)).transpose();
+    fromGaussToNodes_ =
+        atNodes *
+        direct::leastSquares(atSamples, Eigen::MatrixXd::Identity(atSamples.rows(), atSamples.rows()));
   }
-  for (int a = 0; a < numNodes; ++a)
-    nodeSamples_.push_back(sampleAt(node(a)));
 }
 
 /// Corners, then the middles of edges, faces, and the whole: what lies between corners is half their sum.
@@ -179,12 +204,18 @@ void Shape<dim>::placeNodes() {
     if (isSimplex) {
       if (a > 0)
         nodes_(a - 1, a) = 1;
+    } else if (corners == 6) {
+      if (a % 3 > 0)
+        nodes_(a % 3 - 1, a) = 1;
+      nodes_(dim - 1, a) = a < 3 ? -1 : 1;
+    } else if (corners == 5 && a == 4) {
+      nodes_(dim - 1, a) = 1;
     } else {
       const int around = a % 4; // counter-clockwise in the plane, then the same above
       nodes_(0, a) = around == 1 || around == 2 ? 1 : -1;
       nodes_(dim > 1 ? 1 : 0, a) = around >= 2 ? 1 : -1;
       if constexpr (dim == 3)
-        nodes_(2, a) = a >= 4 ? 1 : -1;
+        nodes_(2, a) = corners == 5 ? 0 : a >= 4 ? 1 : -1;
     }
   if (order == 1)
     return;
@@ -229,6 +260,11 @@ NodalColumns<dim> Shape<dim>::gradients(const Coordinates<dim>& xi) const {
 template <int dim>
 NodalValues Shape<dim>::valuesOfAll(const Coordinates<dim>& xi) const {
   NodalValues values(nodes_.cols());
+  if constexpr (dim == 3)
+    if (!isSimplex && !isBrick) {
+      values = jetsOf(type, nodes_, xi).row(0).transpose();
+      return values;
+    }
   if (!isSimplex) {
     for (int a = 0; a < nodes_.cols(); ++a) {
       double product = 1;
@@ -253,6 +289,11 @@ NodalValues Shape<dim>::valuesOfAll(const Coordinates<dim>& xi) const {
 template <int dim>
 NodalColumns<dim> Shape<dim>::gradientsOfAll(const Coordinates<dim>& xi) const {
   NodalColumns<dim> gradients(dim, nodes_.cols());
+  if constexpr (dim == 3)
+    if (!isSimplex && !isBrick) {
+      gradients = jetsOf(type, nodes_, xi).template bottomRows<3>();
+      return gradients;
+    }
   if (!isSimplex) {
     for (int a = 0; a < nodes_.cols(); ++a)
       for (int i = 0; i < dim; ++i) {

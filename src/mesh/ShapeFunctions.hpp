@@ -1,9 +1,11 @@
 #pragma once
 
-/// Shape functions of order 1 and 2 on reference elements, with Gauss rules. Two families make all cells and
-/// facets; their nodes are in the order of Cell.hpp:
+/// Shape functions of order 1 and 2 on reference elements, with Gauss rules. Two families make most cells and
+/// all facets, two more what lies between them; their nodes are in the order of Cell.hpp:
 ///   simplices 0 ≤ ξᵢ, Σξᵢ ≤ 1; corner 0 at the origin, corner i at 1 on axis i edge, triangle, tetrahedron
 ///   bricks [−1, 1]^dim quadrilateral, hexahedron
+///   prisms a triangle × [−1, 1]
+///   pyramids |ξ|, |η| ≤ 1 − ζ ≤ 1
 /// What is written for a dimension holds for all shapes of it: their numbers of nodes are known when the
 /// program runs, so that it is compiled once for each dimension, not for each shape (withShape,
 /// withFacetShape).
@@ -11,9 +13,10 @@
 /// Two rules: that of *gaussSamples* serves stiffnesses and is exact for them on elements with straight edges
 /// (bricks: parallelepipeds), and for constant strains on curved ones; that of *fineSamples* serves measures,
 /// loads and estimates and is exact for squares of shape functions there, and for what curved edges make of
-/// measures and pressures. They are the same where one rule does both. A third one, *reducedSamples*, has as
-/// many Gauss points along each axis as the order, 2, and is there for bricks and edges of order 2 alone:
-/// less than a stiffness asks for, which leaves motions of single elements without energy.
+/// measures and pressures. They are the same where one rule does both. A third one, *reducedSamples*, is less
+/// than a stiffness asks for, and others have it: of bricks and edges of order 2 as many Gauss points along
+/// each axis as the order, of prisms of order 1 two, of order 2 nine. It leaves motions of single elements
+/// without energy (BracedElements.hpp) but of prisms of order 2.
 
 #include "epafi/mesh/Cell.hpp"
 
@@ -57,6 +60,12 @@ constexpr int power(int base, int exponent) {
 /// elements of any form. Each of its points is the one next to the node of its number. Bricks without inner
 /// nodes: functions and rule of those with them, whose inner nodes follow the others (Serendipity): N_a gets
 /// what a has in each inner node.
+///
+/// Prisms and pyramids have on each facet the functions of that facet, on edges alone of order 2. Prisms:
+/// products of those of a triangle and an edge; of order 2 without those that belong to middles of sides.
+/// Their rules are a triangle's times order + 1 points along the edge. Pyramids: rational functions
+/// (Bedrosian, *Int. J. Numer. Meth. Engng* 35 (1992)), polynomials in 1 − ζ, ξ/(1 − ζ) and η/(1 − ζ), and a
+/// Gauss rule of order + 1 points along each of these, exact for constant strains.
 template <int dim>
 class Shape {
 public:
@@ -65,7 +74,7 @@ public:
   explicit Shape(CellType shapeType);
 
   const CellType type;
-  const bool isSimplex;
+  const bool isSimplex, isBrick;
   const int order, numNodes;
   const double measure; ///< of the reference element
 
@@ -85,12 +94,14 @@ public:
   [[nodiscard]] const Samples& revolvedSamples() const {
     return revolvedSamples_.empty() ? fineSamples() : revolvedSamples_;
   }
-  /// Of bricks and edges of order 2.
+  /// Of prisms, and of bricks and edges of order 2; of others those of stiffnesses.
   [[nodiscard]] const Samples& reducedSamples() const {
-    assert(!reducedSamples_.empty());
-    return reducedSamples_;
+    return reducedSamples_.empty() ? gaussSamples_ : reducedSamples_;
   }
   [[nodiscard]] const Samples& nodeSamples() const { return nodeSamples_; } ///< at the nodes; weights 0
+  /// Of prisms and pyramids of order 2: what values at gaussSamples make at the nodes, carried on by the
+  /// nearest function of order 1; a row a node.
+  [[nodiscard]] const Eigen::MatrixXd& fromGaussToNodes() const { return fromGaussToNodes_; }
   [[nodiscard]] const ShapeSample<dim>& centreSample() const {
     return centreSample_;
   } ///< its weight is the measure
@@ -98,12 +109,13 @@ public:
 private:
   void placeNodes();
   void findFollowers();
+  void setSamples();
   [[nodiscard]] NodalValues valuesOfAll(const Coordinates<dim>& xi) const;
   [[nodiscard]] NodalColumns<dim> gradientsOfAll(const Coordinates<dim>& xi) const;
 
   NodalColumns<dim> nodes_; ///< inner ones that the shape has not stand behind the others
   /// What each node has in each of these, a column each; empty: there are none.
-  Eigen::MatrixXd followers_;
+  Eigen::MatrixXd followers_, fromGaussToNodes_;
   ShapeSample<dim> centreSample_;
   Samples gaussSamples_, fineSamples_, revolvedSamples_, reducedSamples_, nodeSamples_;
 };

@@ -2,6 +2,7 @@
 
 #include "epafi/base/ArrayIndex.hpp"
 #include "epafi/mesh/MeshOrder.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
 #include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <algorithm>
@@ -48,8 +49,8 @@ Pieces cut(CellType type, std::span<const GlobalOrdinal> corners) {
     if (std::find(face.begin(), face.end(), tip) != face.end())
       continue;
     const auto first = index(lowest(face.begin(), face.end()) - face.begin());
-    const auto at = [&](std::size_t i) { return face[(first + i) % 4]; };
-    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) // seen from outside; the tip lies behind
+    const auto at = [&](std::size_t i) { return face[(first + i) % face.size()]; };
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) // seen from outside; the tip lies behind
       pieces.push_back({at(0), at(i + 1), at(i), tip});
   }
   return pieces;
@@ -58,8 +59,8 @@ Pieces cut(CellType type, std::span<const GlobalOrdinal> corners) {
 /// Cuts cell by cell.
 class Cutting {
 public:
-  explicit Cutting(const Mesh& mesh) : mesh_(mesh), linear_(withOrder(mesh.cellType(), 1)) {
-    result_.dimension = dimensionOf(linear_);
+  explicit Cutting(const Mesh& mesh) : mesh_(mesh) {
+    result_.dimension = dimensionOf(mesh.cellType());
     result_.surfaces = mesh.surfaceNames();
     result_.groups = mesh.groupNames();
     const auto* unstructured = dynamic_cast<const UnstructuredMesh*>(&mesh);
@@ -77,14 +78,12 @@ public:
   }
 
 private:
-  [[nodiscard]] std::size_t numCorners() const { return index(numCornersOf(linear_)); }
-
   /// In the order of the mesh's own numbers.
   void numberCorners() {
     std::vector<char> isCorner(index(mesh_.numNodes()), 0);
     for (GlobalOrdinal cell = 0; cell < mesh_.numElements(); ++cell) {
       const ElementNodes nodes(mesh_, cell);
-      for (std::size_t i = 0; i < numCorners(); ++i)
+      for (std::size_t i = 0; i < index(numCornersOf(nodes.type())); ++i)
         isCorner[index(nodes[i])] = 1;
     }
     number_.assign(isCorner.size(), -1);
@@ -99,21 +98,32 @@ private:
     const ElementNodes nodes(mesh_, cell);
     const std::span<const GlobalOrdinal> all(nodes.begin(), nodes.size());
     first_.push_back(result_.elements.size());
-    for (const std::array<int, 4>& piece : cut(linear_, all.first(numCorners()))) {
+    const CellType linear = withOrder(nodes.type(), 1);
+    std::vector<Point> points;
+    mesh_.elementPoints(cell, points);
+    for (const std::array<int, 4>& piece : cut(linear, all.first(index(numCornersOf(linear))))) {
       SimplexMesh::Element element;
       const auto count = index(result_.dimension) + 1;
       for (std::size_t i = 0; i < count; ++i)
         element.corners[i] = number_[index(nodes[index(piece[i])])];
       result_.elements.push_back(element);
-      for (std::size_t i = 0; orderOf(mesh_.cellType()) == 2 && i < count; ++i)
+      for (std::size_t i = 0; linear != nodes.type() && i < count; ++i)
         for (std::size_t j = 0; j < i; ++j)
-          addBend(all, {piece[i], piece[j]});
+          addBend(nodes, points, {piece[i], piece[j]});
     }
   }
 
-  void addBend(std::span<const GlobalOrdinal> nodes, const std::array<int, 2>& ends) {
-    const Point a = mesh_.point(nodes[index(ends[0])]), b = mesh_.point(nodes[index(ends[1])]),
-                m = mesh_.point(nodes[index(nodeBetween(ends))]);
+  /// Of an edge of the cell, or of a diagonal of a face or through it.
+  void addBend(const ElementNodes& nodes, std::span<const Point> points, const std::array<int, 2>& ends) {
+    const Point &a = points[index(ends[0])], &b = points[index(ends[1])];
+    const Point m = withShape(nodes.type(), [&](const auto& shape) {
+      const NodalValues values = shape.values(0.5 * (shape.node(ends[0]) + shape.node(ends[1])));
+      Point middle{};
+      for (std::size_t node = 0; node < points.size(); ++node)
+        for (std::size_t d = 0; d < 3; ++d)
+          middle[d] += values[static_cast<Eigen::Index>(node)] * points[node][d];
+      return middle;
+    });
     Point bend{};
     double size = 0, length = 0;
     for (std::size_t d = 0; d < 3; ++d) {
@@ -125,24 +135,6 @@ private:
     if (size > roundOff * length)
       result_.bends[SimplexMesh::edgeBetween(number_[index(nodes[index(ends[0])])],
                                              number_[index(nodes[index(ends[1])])])] = bend;
-  }
-
-  /// The node in the middle of an edge, of a diagonal of a face, or of one through the cell.
-  [[nodiscard]] int nodeBetween(const std::array<int, 2>& ends) const {
-    const std::span<const int> edges = edgesOf(linear_);
-    for (int e = 0; e < std::ssize(edges); e += 2)
-      if (std::minmax(edges[e], edges[e + 1]) == std::minmax(ends[0], ends[1]))
-        return numCornersOf(linear_) + e / 2;
-    if (linear_ == CellType::hexahedron)
-      for (const Facet& face : facetsOf(mesh_.cellType())) {
-        const auto corners = face.nodes.first(4);
-        const auto has = [&](int end) {
-          return std::find(corners.begin(), corners.end(), end) != corners.end();
-        };
-        if (has(ends[0]) && has(ends[1]))
-          return face[8];
-      }
-    return numNodesOf(mesh_.cellType()) - 1;
   }
 
   /// The pieces of a cell.
@@ -164,11 +156,12 @@ private:
   void markSurface(int number) {
     Marks marks(result_.facetMarks);
     const Surface surface = mesh_.surface(result_.surfaces[index(number)]);
-    std::vector<LocalOrdinal> corners(index(numCornersOf(surface.facetType)));
+    std::vector<LocalOrdinal> corners;
     const std::size_t count = index(result_.dimension) + 1;
     for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-      for (std::size_t i = 0; i < corners.size(); ++i)
-        corners[i] = number_[index(surface.facet(f)[i])];
+      corners.clear();
+      for (const GlobalOrdinal node : surface.corners(f))
+        corners.push_back(number_[index(node)]);
       const auto isOn = [&](LocalOrdinal node) {
         return std::find(corners.begin(), corners.end(), node) != corners.end();
       };
@@ -184,7 +177,6 @@ private:
   }
 
   const Mesh& mesh_;
-  CellType linear_;
   SimplexMesh result_;
   std::vector<LocalOrdinal> number_; ///< of each node of the mesh, if it is a corner
   std::vector<std::size_t> first_;   ///< piece of each cell

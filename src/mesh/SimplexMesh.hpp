@@ -38,9 +38,9 @@ struct SimplexMesh {
   }
 };
 
-/// The same body in simplices: triangles and tetrahedra as they are, a quadrilateral as two triangles, a
-/// hexahedron as six tetrahedra round its lowest node, faces cut from their lowest node on, the same from
-/// both sides. Edges of elements of order 2 keep their curvature. O(n).
+/// The same body in simplices: triangles and tetrahedra as they are, a quadrilateral as two triangles,
+/// another cell as tetrahedra round its lowest node, a hexahedron as six, faces cut from their lowest node
+/// on, the same from both sides. Edges of elements of order 2 keep their curvature. O(n).
 SimplexMesh simplicesOf(const Mesh& mesh);
 /// Whether its elements are triangles or tetrahedra, of any order.
 bool isOfSimplices(const Mesh& mesh);

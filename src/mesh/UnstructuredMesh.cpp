@@ -50,7 +50,8 @@ void UnstructuredMesh::findFacets(const NamedFacets& surface) {
   std::vector<FacetPlace> facets;
   facets.reserve(surface.nodes.size() / perFacet);
   for (std::size_t i = 0; i < surface.nodes.size(); i += perFacet)
-    facets.push_back(findFacet(surface.name, std::span(surface.nodes).subspan(i, perFacet)));
+    facets.push_back(findFacet(
+        surface.name, withoutFilling(std::span<const LocalOrdinal>(surface.nodes).subspan(i, perFacet))));
   std::sort(facets.begin(), facets.end());
   const auto copy = std::adjacent_find(facets.begin(), facets.end());
   if (copy != facets.end())
@@ -64,14 +65,15 @@ void UnstructuredMesh::findFacets(const NamedFacets& surface) {
 
 UnstructuredMesh::FacetPlace UnstructuredMesh::findFacet(const std::string& surface,
                                                          std::span<const LocalOrdinal> nodes) const {
-  const auto facets = facetsOf(withOrder(arrays_.cellType, 1));
   LocalOrdinal inside = -1;
   for (const LocalOrdinal element : topology_.elementsOf(nodes[0])) {
     const auto own = nodesOf(arrays_.cellType, arrays_.cells, element);
+    const auto facets = facetsOf(withOrder(cellOf(arrays_.cellType, own.size()), 1));
     for (std::size_t f = 0; f < facets.size(); ++f) {
-      const bool isSame = std::all_of(facets[f].begin(), facets[f].end(), [&](int place) {
-        return std::find(nodes.begin(), nodes.end(), own[index(place)]) != nodes.end();
-      });
+      const bool isSame =
+          facets[f].size() == nodes.size() && std::all_of(facets[f].begin(), facets[f].end(), [&](int place) {
+            return std::find(nodes.begin(), nodes.end(), own[index(place)]) != nodes.end();
+          });
       if (isSame && topology_.across(element, f) < 0)
         return {element, static_cast<std::uint8_t>(f)};
       if (isSame)
@@ -88,7 +90,7 @@ UnstructuredMesh::FacetPlace UnstructuredMesh::findFacet(const std::string& surf
 }
 
 void UnstructuredMesh::elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const {
-  const auto own = nodesOf(arrays_.cellType, arrays_.cells, element);
+  const auto own = rowOf(arrays_.cellType, arrays_.cells, element);
   std::copy(own.begin(), own.end(), nodes.begin());
 }
 
@@ -126,8 +128,10 @@ Surface UnstructuredMesh::surface(const std::string& name) const {
   surface.facetType = facetTypeOf(arrays_.cellType);
   for (const FacetPlace& facet : facets) {
     const auto nodes = nodesOf(arrays_.cellType, arrays_.cells, facet.element);
-    for (const int node : facetsOf(arrays_.cellType)[facet.place])
-      surface.facetNodes.push_back(nodes[index(node)]);
+    std::vector<LocalOrdinal> own;
+    for (const int node : facetsOf(cellOf(arrays_.cellType, nodes.size()))[facet.place])
+      own.push_back(nodes[index(node)]);
+    surface.add(own);
     surface.elements.push_back(facet.element);
   }
   return surface;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Mesh of any elements of one shape and order, held as arrays: about 140 bytes a hexahedron or 70 a
+/// Mesh of any elements of one dimension and order, held as arrays: about 140 bytes a hexahedron or 70 a
 /// tetrahedron, all told.
 
 #include "epafi/mesh/MeshArrays.hpp"

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <set>
 #include <span>
@@ -32,6 +33,13 @@ std::vector<std::string> namesOf(const std::vector<GmshGroup>& groups) {
 /// Corners of elements of a kind.
 std::size_t numCornersOfGmsh(int type) {
   return index(numNodesOfGmsh(linearKindOfGmsh(type)));
+}
+
+/// Of order 1.
+mesh::CellType cellOfGmsh(int type) {
+  using enum mesh::CellType;
+  constexpr std::array cells{line, line, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid};
+  return cells.at(index(linearKindOfGmsh(type)));
 }
 
 /// Which facets of the file, in its order, have all their corners in one of the elements.
@@ -123,6 +131,7 @@ private:
   mesh::InnerNodes inner_;
   const GmshGroup* chosen_ = nullptr; ///< null: all elements
   Blocks blocks_;
+  mesh::CellType given_{};              ///< of the largest elements, as they stand in the file
   std::vector<LocalOrdinal> newNumber_; ///< of each node of the file; −1: not of the body
   std::vector<int> entities_;           ///< of each element
   mesh::MeshArrays arrays_;
@@ -138,8 +147,7 @@ mesh::MeshArrays BodyMaker::make() {
   addGroups();
   addSurfaces();
   addNodeSets();
-  const int given = numNodesOfGmsh(blocks_.front()->type);
-  return given < numNodesOf(arrays_.cellType) ? completed(std::move(arrays_), true) : std::move(arrays_);
+  return given_ == arrays_.cellType ? std::move(arrays_) : completed(std::move(arrays_), true);
 }
 
 void BodyMaker::chooseBlocks() {
@@ -174,50 +182,58 @@ void BodyMaker::refuseGroup() const {
   throw InputError(near.empty() ? text : text + "; did you mean " + inQuotes(near) + '?');
 }
 
+/// Elements of one order, of any shapes; those of order 2 have as many nodes on their faces as others there.
 void BodyMaker::chooseCellType() {
-  static const std::array<std::string, 8> names{"",           "lines",     "triangles", "quadrilaterals",
-                                                "tetrahedra", "hexahedra", "prisms",    "pyramids"};
-  constexpr std::array<mesh::CellType, 4> types{mesh::CellType::triangle, mesh::CellType::quadrilateral,
-                                                mesh::CellType::tetrahedron, mesh::CellType::hexahedron};
-  const std::string allowed =
-      file_.dimension == 2 ? "a body in the plane is made of triangles alone or of quadrilaterals alone"
-                           : "a solid body is made of tetrahedra alone or of hexahedra alone";
   std::set<int> shapes, kinds;
+  mesh::CellType largest = mesh::CellType::triangle;
   for (const GmshBlock* block : blocks_) {
     kinds.insert(block->type);
     shapes.insert(linearKindOfGmsh(block->type));
+    largest = std::max(largest, cellOfGmsh(block->type));
   }
-  if (shapes.size() > 1) {
-    std::vector<std::string> found;
-    for (const int shape : shapes)
-      found.push_back(names[shape]);
-    throw InputError(arrays_.name + " mixes " + listed(found) + "; " + allowed);
-  }
-  if (kinds.size() > 1)
+  if (kinds.size() > shapes.size())
     throw InputError(arrays_.name +
                      " mixes elements of one shape with different numbers of nodes; mesh all of it "
                      "in one order");
-  const int kind = *shapes.begin();
-  if (kind > 5)
-    throw InputError(arrays_.name + " is made of " + names[kind] + "; " + allowed);
-  arrays_.cellType = types[kind - 2];
-  if (kind != *kinds.begin())
-    arrays_.cellType = withOrder(arrays_.cellType, 2);
-  if (inner_ == mesh::InnerNodes::none && numNodesOfGmsh(*kinds.begin()) < numNodesOf(arrays_.cellType))
-    arrays_.cellType = withoutInnerNodes(arrays_.cellType);
+  const auto isLinear = [](int kind) { return linearKindOfGmsh(kind) == kind; };
+  if (std::any_of(kinds.begin(), kinds.end(), isLinear) && !std::all_of(kinds.begin(), kinds.end(), isLinear))
+    throw InputError(arrays_.name + " mixes elements of order 1 and 2; mesh all of it in one order");
+  if (!isLinear(*kinds.begin()))
+    largest = withOrder(largest, 2);
+  constexpr int prisms = 6, fullHexahedra = 12, fullPyramids = 14;
+  const bool isMixedSolid = file_.dimension == 3 && (shapes.size() > 1 || *shapes.rbegin() >= prisms);
+  for (const int kind : kinds)
+    if (isMixedSolid && fullHexahedra <= kind && kind <= fullPyramids)
+      throw InputError(
+          arrays_.name + " has " + toString(cellOfGmsh(kind)) +
+          "s with nodes in the middle of their faces, which those of prisms and pyramids here do "
+          "not have; mesh with Mesh.SecondOrderIncomplete = 1, or in order 1, and ask for the "
+          "\"Order\" 2");
+  arrays_.cellType = isMixedSolid ? withoutInnerNodes(largest) : largest;
+  given_ = arrays_.cellType;
+  if (std::none_of(kinds.begin(), kinds.end(),
+                   [&](int kind) { return numNodesOfGmsh(kind) == numNodesOf(given_); }))
+    given_ = withoutInnerNodes(given_);
+  if (inner_ == mesh::InnerNodes::none)
+    arrays_.cellType = given_;
 }
 
-/// Places of a cell's nodes among those of Gmsh's element; of bricks without nodes inside as far as they have
-/// them.
-std::vector<std::size_t> placesInGmsh(mesh::CellType type, std::size_t count) {
-  std::vector<std::size_t> places(count);
+/// Places of a cell's nodes among those of Gmsh's element.
+std::vector<std::size_t> placesInGmsh(mesh::CellType type) {
+  std::vector<std::size_t> places(index(numNodesOf(type)));
   std::iota(places.begin(), places.end(), std::size_t{0});
-  if (type == mesh::CellType::tetrahedron10)
-    std::swap(places[8], places[9]);
   constexpr std::array<std::size_t, 18> hexahedron{11, 13, 9,  16, 18, 19, 17, 10, 12,
                                                    14, 15, 22, 23, 21, 24, 20, 25, 26};
-  if (withInnerNodes(type) == mesh::CellType::hexahedron27)
-    std::copy(hexahedron.begin(), hexahedron.begin() + (count - 9), places.begin() + 9);
+  constexpr std::array<std::size_t, 8> prism{9, 7, 12, 14, 13, 8, 10, 11};
+  constexpr std::array<std::size_t, 7> pyramid{8, 10, 6, 7, 9, 11, 12};
+  if (type == mesh::CellType::tetrahedron10)
+    std::swap(places[8], places[9]);
+  else if (type == mesh::CellType::prism15)
+    std::copy(prism.begin(), prism.end(), places.begin() + 7);
+  else if (type == mesh::CellType::pyramid13)
+    std::copy(pyramid.begin(), pyramid.end(), places.begin() + 6);
+  else if (withInnerNodes(type) == mesh::CellType::hexahedron27)
+    std::copy_n(hexahedron.begin(), places.size() - 9, places.begin() + 9);
   return places;
 }
 
@@ -247,13 +263,22 @@ void BodyMaker::addCells() {
     for (std::uint32_t e = 0; e < blocks_[b]->tags.size(); ++e)
       order.push_back({blocks_[b]->tags[e], b, e});
   std::sort(order.begin(), order.end(), [](const Place& a, const Place& b) { return a.tag < b.tag; });
-  const auto count = index(numNodesOfGmsh(blocks_.front()->type));
-  const std::vector<std::size_t> places = placesInGmsh(arrays_.cellType, count);
-  arrays_.cells.reserve(order.size() * count);
+  const auto perElement = index(numNodesOf(given_));
+  std::map<int, std::vector<std::size_t>> placesOf; // by kind
+  for (const GmshBlock* block : blocks_)
+    placesOf[block->type] = placesInGmsh(cellOf(given_, index(numNodesOfGmsh(block->type))));
+  arrays_.cells.reserve(order.size() * perElement);
   for (const Place& place : order) {
     const GmshBlock& block = *blocks_[place.block];
+    const std::vector<std::size_t>& places = placesOf.at(block.type);
+    const std::size_t first = arrays_.cells.size();
     for (const std::size_t i : places)
-      arrays_.cells.push_back(newNumber_[index(block.nodes[place.element * count + i])]);
+      arrays_.cells.push_back(newNumber_[index(block.nodes[place.element * places.size() + i])]);
+    if (const LocalOrdinal last = arrays_.cells.back(); arrays_.cells[arrays_.cells.size() - 2] == last)
+      throw InputError(arrays_.name + ": element " + std::to_string(place.tag) + " has node " +
+                       std::to_string(arrays_.nodeTags[index(last)]) + " twice; give it " +
+                       std::to_string(places.size()) + " different nodes");
+    mesh::fillRow(arrays_.cells, first, perElement);
     arrays_.elementTags.push_back(place.tag);
     entities_.push_back(block.entity);
   }
@@ -275,6 +300,12 @@ void BodyMaker::addGroups() {
 void BodyMaker::addSurfaces() {
   const auto perFacet = index(numCornersOf(facetTypeOf(arrays_.cellType)));
   const std::vector<bool> isIn = facetsIn(file_, blocks_);
+  const auto hasFacets = [&](std::size_t corners) {
+    return std::any_of(blocks_.begin(), blocks_.end(), [&](const GmshBlock* block) {
+      const auto facets = facetsOf(cellOfGmsh(block->type));
+      return facets.front().size() == corners || facets.back().size() == corners;
+    });
+  };
   for (const GmshGroup& surface : file_.surfaces) {
     mesh::NamedFacets part{surface.name, {}};
     std::size_t facet = 0;
@@ -283,13 +314,16 @@ void BodyMaker::addSurfaces() {
       for (std::size_t i = 0; i < block.tags.size(); ++i) {
         if (!isIn[facet++] || !holds(surface, block.entity))
           continue;
-        if (numCornersOfGmsh(block.type) != perFacet)
+        if (!hasFacets(numCornersOfGmsh(block.type)))
           throw InputError(arrays_.name + ": the surface " + inQuotes(surface.name) + " has a facet of " +
                            std::to_string(count) + " nodes (element " + std::to_string(block.tags[i]) +
                            "), but those of the body's elements have " + std::to_string(perFacet) +
                            " corners; mesh surface and body together");
-        for (const LocalOrdinal node : std::span(block.nodes).subspan(i * count, perFacet))
+        const std::size_t first = part.nodes.size();
+        for (const LocalOrdinal node :
+             std::span(block.nodes).subspan(i * count, numCornersOfGmsh(block.type)))
           part.nodes.push_back(newNumber_[index(node)]);
+        mesh::fillRow(part.nodes, first, perFacet);
       }
     }
     if (!part.nodes.empty())

@@ -220,8 +220,14 @@ void GmshSession::mesh(int refinements, int order) const {
           std::string(" To be refined, a file of format 2.2 that lists elements once for each of their "
                       "groups must be saved in format 4.1"));
     }
-  if (order > 0)
-    call(Gmsh::get().setOrder, order);
+  if (order == 0)
+    return;
+  const std::vector<int> solid = elementTypes(3);
+  constexpr int hexahedra = 5;
+  if (solid.size() > 1 ||
+      (!solid.empty() && linearKindOfGmsh(solid.front()) > hexahedra)) // no nodes on faces
+    call(Gmsh::get().setNumber, "Mesh.SecondOrderIncomplete", 1.0);
+  call(Gmsh::get().setOrder, order);
 }
 
 void GmshSession::meshWith(const mesh::SizeField& sizes) const {

@@ -29,10 +29,11 @@ mesh::CellType commonType(std::span<const MeshShare> shares, const Comm& comm) {
   least = minOverRanks(comm, least);
   most = maxOverRanks(comm, most);
   const auto a = static_cast<mesh::CellType>(least), b = static_cast<mesh::CellType>(most);
-  if (a != b)
+  if (cellOf(b, static_cast<std::size_t>(numNodesOf(a))) != a)
     throw InputError(std::string("its mesh files hold ") + toString(a) + "s and " + toString(b) +
-                     "s; a body is made of one kind of elements");
-  return a;
+                     "s, which do not go together; mesh all of it in one order, and hexahedra of order 2 "
+                     "beside others without nodes on their faces");
+  return b;
 }
 
 /// Takes shares in.
@@ -62,12 +63,12 @@ void Collector::add(const MeshShare& share) {
 
 void Collector::addElements(const MeshShare& share) {
   const mesh::Mesh& mesh = *share.mesh;
-  const std::size_t corners = numCornersOf(mesh.cellType());
   std::vector<bool> isCorner(mesh.numNodes(), false);
   std::vector<GlobalOrdinal> keys;
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const mesh::ElementNodes nodes(mesh, element);
     keys.clear();
+    const std::size_t corners = numCornersOf(nodes.type());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       keys.push_back(share.keyOf(nodes[i]));
       if (i < corners)
@@ -121,7 +122,9 @@ void LooseElements::add(GlobalOrdinal number, int part, std::span<const GlobalOr
   values_.push_back(number);
   values_.push_back(part);
   values_.insert(values_.end(), nodesAt_ - groupsAt, 0);
+  const std::size_t first = values_.size();
   values_.insert(values_.end(), nodes.begin(), nodes.end());
+  mesh::fillRow(values_, first, width_ - nodesAt_);
 }
 
 void LooseElements::setIn(std::size_t place, std::size_t group) {

@@ -20,13 +20,13 @@ namespace epafi::meshing {
 /// and its nodes.
 class LooseElements {
 public:
-  /// \param numNodes  of an element
+  /// \param numNodes  length of the rows (Cell.hpp) that nodes stand in
   LooseElements(std::size_t numGroups, std::size_t numNodes);
 
   /// Of the same form, without elements.
   [[nodiscard]] LooseElements none() const;
   void reserve(std::size_t number) { values_.reserve(number * width_); } ///< of elements
-  /// Of no group yet. \param nodes  their keys
+  /// Of no group yet. \param nodes  their keys, perhaps in a shorter row
   void add(GlobalOrdinal number, int part, std::span<const GlobalOrdinal> nodes);
   void setIn(std::size_t place, std::size_t group); ///< the element at a place is in a group
   [[nodiscard]] std::size_t size() const { return values_.size() / width_; }
@@ -74,7 +74,7 @@ FacetList gathered(const FacetList& own, const Comm& comm);
 std::vector<std::string> allNames(const std::set<std::string>& own, const Comm& comm);
 
 struct LooseMesh {
-  mesh::CellType cellType = mesh::CellType::triangle; ///< the same on all ranks
+  mesh::CellType cellType = mesh::CellType::triangle; ///< of the largest elements, the same on all ranks
   int numParts = 0;                                   ///< of the whole body, on all ranks
   std::vector<std::string> groups;                    ///< names, the same on all ranks
 
@@ -94,7 +94,7 @@ struct MeshShare {
 
 /// Numbers elements and parts through all shares of all ranks, in this order. \param facets of named
 /// surfaces; see gathered() Precondition: some rank has elements. Collective. \throws InputError, the same on
-/// all ranks, if they are not of one kind.
+/// all ranks, if they are not of one order and dimension.
 LooseMesh looseMeshOf(std::span<const MeshShare> shares, std::shared_ptr<const FacetList> facets,
                       const Comm& comm);
 

@@ -198,11 +198,10 @@ void makeConnected(const mesh::Mesh& mesh, std::vector<int>& part) {
 GroupedPartition::GroupedPartition(std::shared_ptr<const Partition> parts, const mesh::Mesh& mesh, int size)
     : parts_(std::move(parts)), order_(parts_->numParts()), number_(order_.size()) {
   std::vector<Point> centres(order_.size());
-  std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement());
   for (int part = 0; part < std::ssize(centres); ++part) {
     const std::vector<GlobalOrdinal> elements = parts_->elementsOf(part);
     for (const GlobalOrdinal element : elements) {
-      mesh.elementNodes(element, nodes);
+      const mesh::ElementNodes nodes(mesh, element);
       for (const GlobalOrdinal node : nodes)
         for (std::size_t d = 0; d < 3; ++d)
           centres[part][d] += mesh.point(node)[d] / static_cast<double>(elements.size() * nodes.size());

@@ -132,7 +132,7 @@ bool areCutAlike(const mesh::Mesh& a, const scene::Decomposition& cut, const mes
 std::shared_ptr<const meshing::Partition> cutByMetis(const scene::Body& body, int parts,
                                                      const mesh::Mesh& mesh, const Comm& comm) {
   try {
-    return std::make_shared<const meshing::GraphPartition>(mesh, parts, comm, kindOfParts(body, mesh));
+    return std::make_shared<const meshing::GraphPartition>(mesh, parts, comm, kindOfParts(body));
   } catch (const InputError& error) { // the same on all ranks
     throw InputError("body '" + body.name + "': " + error.what());
   }
@@ -190,10 +190,8 @@ std::unique_ptr<const mesh::Mesh> structuredMesh(const meshing::MeshSource& sour
   return std::make_unique<const mesh::StructuredMesh>(source.box, source.elements, source.order);
 }
 
-meshing::Parts kindOfParts(const scene::Body& body, const mesh::Mesh& mesh) {
-  return body.reducedIntegration && isSerendipity(mesh.cellType()) // others are refused
-             ? meshing::Parts::braced
-             : meshing::Parts::connected;
+meshing::Parts kindOfParts(const scene::Body& body) {
+  return body.reducedIntegration ? meshing::Parts::braced : meshing::Parts::connected;
 }
 
 int partsFor(const scene::Body& body, const mesh::Mesh& mesh) {

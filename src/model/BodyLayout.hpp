@@ -46,7 +46,7 @@ std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
 std::unique_ptr<const mesh::Mesh> structuredMesh(const meshing::MeshSource& source);
 
 /// What the parts must be.
-meshing::Parts kindOfParts(const scene::Body& body, const mesh::Mesh& mesh);
+meshing::Parts kindOfParts(const scene::Body& body);
 
 /// How many parts METIS makes of a mesh where the scene leaves it open.
 int partsFor(const scene::Body& body, const mesh::Mesh& mesh);

@@ -197,7 +197,7 @@ contact::UnitedSurface Coupler::untied(const Side& side, const Side& other) cons
     const auto nodes = whole.surface.facet(f);
     if (std::all_of(nodes.begin(), nodes.end(), isTiedNode))
       continue;
-    result.surface.facetNodes.insert(result.surface.facetNodes.end(), nodes.begin(), nodes.end());
+    result.surface.add(nodes);
     result.surface.elements.push_back(whole.surface.elements[f]);
     result.parts.push_back(whole.parts[f]);
   }

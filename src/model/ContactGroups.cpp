@@ -37,7 +37,7 @@ Side sideOf(const Terms& terms, const BodyLayout& body, const std::string& name)
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
     body.mesh->pointsAt(nodes, points);
-    const Vector3d normal = mesh::areaVector(surface.facetType, points);
+    const Vector3d normal = mesh::areaVector(surface.typeOf(f), points);
     for (const GlobalOrdinal node : nodes)
       side.normals.try_emplace(node, Vector3d::Zero()).first->second += normal;
     std::vector<GlobalOrdinal> key(nodes.begin(), nodes.end());

@@ -30,7 +30,7 @@ struct Facets {
   void add(const mesh::Mesh& mesh, const mesh::Surface& surface, std::size_t facet) {
     std::vector<Point> points;
     mesh.pointsAt(surface.facet(facet), points);
-    area += mesh::areaVector(surface.facetType, points).norm();
+    area += mesh::areaVector(surface.typeOf(facet), points).norm();
     ++number;
   }
   [[nodiscard]] double spacing(const mesh::Surface& surface) const {

@@ -94,7 +94,10 @@ void requireBraced(const BodyLayout& body, std::span<const GlobalOrdinal> elemen
     throw InputError("body '" + body.name + "': reduced integration leaves the element at " +
                      text(mesh::centreOf(points)) + " loose, since " +
                      (isPlane ? "it has no neighbours in its part of the body"
-                              : "its neighbours in its part of the body lie along one axis of it at most") +
+                      : points.size() == 6
+                          ? "it is a prism with no neighbour at its sides in its part of the body"
+                          : "its neighbours in its part of the body lie along one axis of it "
+                            "at most") +
                      "; choose fewer parts if it has others in the body, else the integration \"full\"");
   }
 }

@@ -31,7 +31,7 @@ meshing::LooseMesh looseMeshOf(const BodyLayout* whole, const Comm& comm) {
     for (const std::string& name : whole->mesh->surfaceNames()) {
       const mesh::Surface surface = whole->mesh->surface(name);
       for (std::size_t f = 0; f < surface.numFacets(); ++f)
-        facets.add(name, surface.facet(f).first(numCornersOf(surface.facetType)));
+        facets.add(name, surface.corners(f));
     }
     for (const std::string& name : whole->mesh->nodeSetNames())
       for (const GlobalOrdinal node : whole->mesh->nodeSet(name))

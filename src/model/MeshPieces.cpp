@@ -47,6 +47,13 @@ private:
     const int part = held_.part(place);
     return own_.begin <= part && part < own_.end;
   }
+  /// The nodes of an element, and its facets.
+  [[nodiscard]] std::span<const GlobalOrdinal> nodesOf(std::size_t place) const {
+    return mesh::withoutFilling(held_.nodes(place));
+  }
+  [[nodiscard]] std::span<const mesh::Facet> facetsOf(std::size_t place) const {
+    return mesh::facetsOf(cellOf(loose_.cellType, nodesOf(place).size()));
+  }
   [[nodiscard]] std::size_t placeOf(GlobalOrdinal key) const {
     return std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
   }
@@ -166,7 +173,7 @@ void PieceMaker::markBoundary() {
 /// Two elements that share the corners of a facet share all its nodes.
 void PieceMaker::requireWhole(std::size_t element, std::size_t facet, std::size_t other) const {
   const auto nodes = held_.nodes(element), others = held_.nodes(other);
-  for (const int place : facetsOf(loose_.cellType)[facet])
+  for (const int place : facetsOf(element)[facet])
     if (std::find(others.begin(), others.end(), nodes[index(place)]) == others.end())
       throw InputError("two elements share the corners of a facet, but not node " +
                        std::to_string(nodes[index(place)]) +
@@ -182,7 +189,7 @@ void PieceMaker::requireJoined() const {
                        "; mesh anew, and let no two files hold the same elements");
     std::set<std::pair<int, int>> pairs;
     for (std::size_t e = 0; e < held_.size(); ++e)
-      for (std::size_t f = 0; isOwn(e) && f < facetsOf(loose_.cellType).size(); ++f) {
+      for (std::size_t f = 0; isOwn(e) && f < facetsOf(e).size(); ++f) {
         const LocalOrdinal other = topology_->across(e, f);
         if (other < 0)
           continue;
@@ -214,18 +221,17 @@ void PieceMaker::findFacet(const meshing::NamedFacet& facet) {
         facets_.push_back({facet.surface, -1, held_.number(index(element)), {facet.corners[0]}});
     return;
   }
-  const auto facets = facetsOf(loose_.cellType);
-  const int perFacet = numCornersOf(facetTypeOf(loose_.cellType));
-  if (std::count_if(facet.corners.begin(), facet.corners.end(), [](auto key) { return key >= 0; }) !=
-      perFacet)
-    return;
+  const auto perFacet =
+      std::count_if(facet.corners.begin(), facet.corners.end(), [](auto key) { return key >= 0; });
   const auto isCorner = [&](GlobalOrdinal key) {
     return std::find(facet.corners.begin(), facet.corners.end(), key) != facet.corners.end();
   };
   for (const LocalOrdinal element : topology_->elementsOf(first)) {
     const auto nodes = held_.nodes(index(element));
+    const auto facets = facetsOf(index(element));
     for (std::size_t f = 0; isOwn(index(element)) && f < facets.size(); ++f) {
-      if (!std::all_of(facets[f].begin(), facets[f].begin() + perFacet,
+      if (numCornersOf(facets[f].type) != perFacet ||
+          !std::all_of(facets[f].begin(), facets[f].begin() + perFacet,
                        [&](int node) { return isCorner(nodes[index(node)]); }))
         continue;
       if (topology_->across(element, f) >= 0)
@@ -235,6 +241,7 @@ void PieceMaker::findFacet(const meshing::NamedFacet& facet) {
                          "out of the physical group");
       FoundFacet& found = facets_.emplace_back();
       found = {facet.surface, static_cast<int>(f), held_.number(index(element)), {}};
+      found.nodes.fill(nodes[index(facets[f].nodes.back())]);
       std::transform(facets[f].begin(), facets[f].end(), found.nodes.begin(),
                      [&](int node) { return nodes[index(node)]; });
     }
@@ -271,7 +278,6 @@ void PieceMaker::takeSurfaces() {
 }
 
 void PieceMaker::addSurfaces(mesh::PartArrays& part) const {
-  const auto perFacet = index(nodesPerFacet(loose_.cellType));
   int last = -1;
   for (const FoundFacet& facet : facets_) {
     if (facet.place < 0)
@@ -281,8 +287,10 @@ void PieceMaker::addSurfaces(mesh::PartArrays& part) const {
                                  mesh::Surface{facetTypeOf(loose_.cellType), {}, {}});
     mesh::Surface& surface = part.surfaces.back().second;
     surface.elements.push_back(facet.element);
-    for (const GlobalOrdinal key : std::span(facet.nodes).first(perFacet))
-      surface.facetNodes.push_back(part.nodes[placeOf(key)]);
+    Keys nodes;
+    for (const GlobalOrdinal key : mesh::withoutFilling(std::span<const GlobalOrdinal>(facet.nodes)))
+      nodes.push_back(part.nodes[placeOf(key)]);
+    surface.add(nodes);
   }
 }
 

@@ -124,7 +124,7 @@ void SplitReader::cut(std::size_t body, GlobalOrdinal before, GlobalOrdinal all)
     const GlobalOrdinal parts = how.parts == 0 ? partsFor(*bodies_[body], share.mesh)
                                                : behind * how.parts / all - before * how.parts / all;
     share.partition = meshing::cutPieces(share.mesh, static_cast<int>(std::max<GlobalOrdinal>(parts, 1)),
-                                         kindOfParts(*bodies_[body], share.mesh));
+                                         kindOfParts(*bodies_[body]));
     constexpr int single = 1; // neighbours follow each other, whatever run they fall into
     share.partition = std::make_shared<const meshing::GroupedPartition>(share.partition, share.mesh, single);
     before = behind;

@@ -17,11 +17,11 @@ struct BodyFields {
   std::vector<double> points; ///< n × 3
   std::vector<double> u;      ///< n × components
 
-  GlobalOrdinal numCells = 0; ///< n_e
-  mesh::CellType cellType = mesh::CellType::quadrilateral;
-  RowRange cells;                 ///< this rank's cells
-  std::vector<long long> corners; ///< n_e × nodes of a cell, node numbers in the order of Cell.hpp
-  std::vector<int> subdomain;     ///< n_e, numbered over the whole problem
+  GlobalOrdinal numCells = 0;                              ///< n_e
+  mesh::CellType cellType = mesh::CellType::quadrilateral; ///< of the largest cells
+  RowRange cells;                                          ///< this rank's cells
+  std::vector<long long> corners;                          ///< n_e rows (Cell.hpp) of node numbers
+  std::vector<int> subdomain;                              ///< n_e, numbered over the whole problem
 
   GlobalOrdinal numCrosspoints = 0;     ///< m
   RowRange crosspoints;                 ///< this rank's crosspoints

@@ -67,7 +67,7 @@ FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) 
   result.numFacets = surface.numFacets();
   std::map<GlobalOrdinal, long long> placeOf;
   for (std::size_t f = 0; f < surface.numFacets(); ++f)
-    for (const GlobalOrdinal node : surface.facet(f).first(result.cornersPerFacet))
+    for (const GlobalOrdinal node : surface.corners(f))
       placeOf.emplace(node, 0);
   result.numPoints = placeOf.size();
   result.points = evenShare(result.numPoints, solved.comm());
@@ -80,9 +80,12 @@ FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) 
     const Point point = mesh.point(node);
     result.places.insert(result.places.end(), point.begin(), point.end());
   }
-  for (GlobalOrdinal f = result.facets.first; f < result.facets.first + result.facets.count; ++f)
-    for (const GlobalOrdinal node : surface.facet(f).first(result.cornersPerFacet))
+  for (GlobalOrdinal f = result.facets.first; f < result.facets.first + result.facets.count; ++f) {
+    const std::size_t begin = result.corners.size();
+    for (const GlobalOrdinal node : surface.corners(f))
       result.corners.push_back(placeOf.at(node));
+    mesh::fillRow(result.corners, begin, result.cornersPerFacet);
+  }
   return result;
 }
 

@@ -32,10 +32,11 @@ struct ContactFields {
 
   GlobalOrdinal numFacets =
       0; ///< m, of the first body's surface between nodes that all have a row; perhaps none
-  /// Nothing where each row is a facet of its own: edges of membranes, or no facet is complete.
+  /// Of the largest facets. Nothing where each row is a facet of its own: edges of membranes, or no facet is
+  /// complete.
   std::optional<mesh::CellType> facetType;
   RowRange facets;                ///< this rank's facets
-  std::vector<long long> corners; ///< m × nodesPerFacet(), rows, the normal outwards
+  std::vector<long long> corners; ///< m rows (Cell.hpp) of nodesPerFacet() numbers of rows, outwards
 
   [[nodiscard]] int nodesPerFacet() const { return facetType ? mesh::numNodesOf(*facetType) : 1; }
 };

@@ -1,5 +1,6 @@
 #include "epafi/output/FieldWriter.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/BodyFields.hpp"
 #include "epafi/output/ContactFields.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 namespace epafi::output {
 namespace {
@@ -52,6 +54,28 @@ XdmfData putShared(FieldGroup& to, const std::string& dataset, GlobalOrdinal row
   return {to.first + dataset, rows, columns, typeOf<T>};
 }
 
+/// The cells of a grid as rows (mesh/Cell.hpp); of several types also as XDMF has these. Collective.
+void putCells(FieldGroup& file, const std::string& group, GlobalOrdinal number, mesh::CellType largest,
+              const RowRange& range, const std::vector<long long>& rows, const Comm& comm, XdmfGrid& grid) {
+  const std::size_t length = numNodesOf(largest);
+  grid.cellType = largest;
+  grid.cells = putShared(file, group + "/cells", number, numNodesOf(largest), range, rows);
+  std::vector<long long> sequence;
+  bool isMixed = false;
+  for (std::size_t begin = 0; begin < rows.size(); begin += length) {
+    const auto nodes = mesh::withoutFilling(std::span(rows).subspan(begin, length));
+    isMixed = isMixed || nodes.size() < length;
+    sequence.push_back(xdmfNumber(cellOf(largest, nodes.size())));
+    sequence.insert(sequence.end(), nodes.begin(), nodes.end());
+  }
+  if (maxOverRanks(comm, isMixed ? 1 : 0) == 0)
+    return;
+  const GlobalOrdinal own = std::ssize(sequence);
+  grid.numMixed = number;
+  grid.cells = putShared(file, group + "/cells_by_type", sumOverRanks(comm, own), 0,
+                         {sumBefore(comm, own), own}, sequence);
+}
+
 /// Rows of two numbers become rows of three, the last one 0.
 std::vector<double> inSpace(const std::vector<double>& plane) {
   std::vector<double> space;
@@ -86,9 +110,7 @@ XdmfGrid putBody(FieldGroup& file, const std::string& group, const simulation::S
   XdmfGrid grid;
   grid.name = name;
   grid.points = putShared(file, group + "/points", n, 3, fields.nodes, fields.points);
-  grid.cellType = fields.cellType;
-  grid.cells =
-      putShared(file, group + "/cells", cells, numNodesOf(fields.cellType), fields.cells, fields.corners);
+  putCells(file, group, cells, fields.cellType, fields.cells, fields.corners, solved.comm(), grid);
   const XdmfData u =
       put(file, group + "/u", n, solved.decomposition.problem.components, fields.nodes, fields.u);
   const XdmfData subdomain = putShared(file, group + "/subdomain", cells, 0, fields.cells, fields.subdomain);
@@ -107,7 +129,7 @@ XdmfGrid putBody(FieldGroup& file, const std::string& group, const simulation::S
 }
 
 XdmfGrid putContact(FieldGroup& file, const std::string& group, const std::string& name,
-                    const std::string& firstBody, const ContactFields& fields) {
+                    const std::string& firstBody, const ContactFields& fields, const Comm& comm) {
   file.createGroup(group);
   file.attribute(group, "name", name);
   file.attribute(group, "first_body", firstBody);
@@ -117,9 +139,10 @@ XdmfGrid putContact(FieldGroup& file, const std::string& group, const std::strin
   XdmfGrid grid;
   grid.name = name;
   grid.points = putShared(file, group + "/points", n, 3, fields.rows, fields.points);
-  grid.cellType = fields.facetType;
-  grid.cells = putShared(file, group + "/cells", fields.numFacets, fields.nodesPerFacet(), fields.facets,
-                         fields.corners);
+  if (fields.facetType)
+    putCells(file, group, fields.numFacets, *fields.facetType, fields.facets, fields.corners, comm, grid);
+  else
+    grid.cells = putShared(file, group + "/cells", fields.numFacets, 1, fields.facets, fields.corners);
   grid.attributes.push_back(
       {"normal", Center::node, putShared(file, group + "/normal", n, 3, fields.rows, fields.normals)});
   const auto column = [&](const std::string& field, const auto& values) {
@@ -230,7 +253,7 @@ std::vector<XdmfGrid> putFields(FieldGroup& file, const simulation::SolvedScene&
   for (int c = 0; c < std::ssize(contactGroups); ++c) {
     grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
                                bodyGroups[decomposition.contacts[c].firstBody],
-                               gatherContactFields(solved, c, evaluation.contacts[c])));
+                               gatherContactFields(solved, c, evaluation.contacts[c]), solved.comm()));
     putFacing(file, "/contact/" + contactGroups[c] + "/facing", facingSurface(solved, c));
   }
   const auto tieGroups = groupNames(decomposition.ties);

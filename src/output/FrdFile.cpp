@@ -23,10 +23,10 @@ using ContactValues = std::array<double, 6>;
 /// What rank 0 has of a body.
 struct WholeBody {
   std::string name;
-  mesh::CellType cellType;
+  mesh::CellType cellType;        ///< of the largest elements
   std::vector<double> points;     ///< 3 a node
   std::vector<double> u;          ///< components a node
-  std::vector<long long> corners; ///< of the elements
+  std::vector<long long> corners; ///< of the elements, in rows (mesh/Cell.hpp)
   std::vector<fem::SymmetricTensor> stresses;
 
   [[nodiscard]] GlobalOrdinal numNodes() const { return std::ssize(points) / 3; }
@@ -74,11 +74,13 @@ private:
 
 void putElements(std::string& text, const WholeBody& body, int number, const Numbers& numbers) {
   const std::size_t perElement = numNodesOf(body.cellType);
-  std::vector<GlobalOrdinal> nodes(perElement);
+  std::vector<GlobalOrdinal> nodes;
   for (GlobalOrdinal e = 0; e < body.numElements(); ++e) {
-    for (std::size_t i = 0; i < perElement; ++i)
-      nodes[i] = numbers.node(number, body.corners[e * perElement + i]);
-    putFrdElement(text, numbers.element(number, e), number + 1, body.cellType, nodes);
+    nodes.clear();
+    for (const long long node :
+         mesh::withoutFilling(std::span(body.corners).subspan(e * perElement, perElement)))
+      nodes.push_back(numbers.node(number, node));
+    putFrdElement(text, numbers.element(number, e), number + 1, cellOf(body.cellType, nodes.size()), nodes);
   }
 }
 

@@ -12,42 +12,55 @@
 namespace epafi::output {
 namespace {
 
-/// The format's number of a type of elements, and how many nodes it has.
+/// Places of an element's nodes in the order of the format: on the edges of hexahedra and prisms below,
+/// upright and above. It has no pyramids, which are hexahedra there whose top has shrunk to a node.
+constexpr std::array inOrder{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+constexpr std::array inHexahedron{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
+constexpr std::array inPrism{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11};
+constexpr std::array inPyramid{0, 1, 2, 3, 4, 4, 4, 4, 5, 6, 7, 8, 9, 10, 11, 12, 4, 4, 4, 4};
+
+/// The format's number of a type of elements, and its nodes.
 struct FrdCell {
   int type;
-  std::size_t numNodes;
+  std::span<const int> places;
 };
 
 FrdCell frdCellOf(mesh::CellType type) {
   using enum mesh::CellType;
+  const auto first = [](std::size_t number) { return std::span(inOrder).first(number); };
   switch (type) {
   case triangle:
-    return {7, 3};
+    return {7, first(3)};
   case quadrilateral:
-    return {9, 4};
+    return {9, first(4)};
   case tetrahedron:
-    return {3, 4};
+    return {3, first(4)};
+  case pyramid:
+    return {1, std::span(inPyramid).first(8)};
+  case prism:
+    return {2, first(6)};
   case hexahedron:
-    return {1, 8};
+    return {1, first(8)};
   case triangle6:
-    return {8, 6};
+    return {8, first(6)};
   case quadrilateral8:
   case quadrilateral9:
-    return {10, 8};
+    return {10, first(8)};
   case tetrahedron10:
-    return {6, 10};
+    return {6, first(10)};
+  case pyramid13:
+    return {4, inPyramid};
+  case prism15:
+    return {5, inPrism};
   case hexahedron20:
   case hexahedron27:
-    return {4, 20};
+    return {4, inHexahedron};
   case line:
   case line3:
     break;
   }
   throw Error(std::string("No body consists of a ") + mesh::toString(type) + ".");
 }
-
-/// Places of an element's nodes in the order of the format: on a hexahedron's edges below, upright and above.
-constexpr std::array placesOfNodes{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
 
 void put(std::string& text, GlobalOrdinal number, std::size_t width) {
   const std::string digits = std::to_string(number);
@@ -119,10 +132,10 @@ void putFrdElement(std::string& text, GlobalOrdinal number, int material, mesh::
   put(text, number, 10);
   for (const int value : {cell.type, 0, material})
     put(text, value, 5);
-  for (std::size_t i = 0; i < cell.numNodes; ++i) {
+  for (std::size_t i = 0; i < cell.places.size(); ++i) {
     if (i % perLine == 0)
       text += "\n -2";
-    put(text, nodes[placesOfNodes[i]], 10);
+    put(text, nodes[cell.places[i]], 10);
   }
   text += '\n';
 }

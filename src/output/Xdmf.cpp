@@ -19,21 +19,32 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// Value of TopologyType, and the attribute that goes with it where cells are of any length.
+struct XdmfCell {
+  const char*
+      name; ///< value of TopologyType, and the attribute that goes with it where cells are of any length
+  int number;
+};
+
+/// In the order of CellType.
+constexpr std::array xdmfCells{XdmfCell{"Triangle", 4},
+                               XdmfCell{"Quadrilateral", 5},
+                               XdmfCell{"Tetrahedron", 6},
+                               XdmfCell{"Pyramid", 7},
+                               XdmfCell{"Wedge", 8},
+                               XdmfCell{"Hexahedron", 9},
+                               XdmfCell{"Polyline\" NodesPerElement=\"2", 2},
+                               XdmfCell{"Triangle_6", 36},
+                               XdmfCell{"Quadrilateral_9", 35},
+                               XdmfCell{"Tetrahedron_10", 38},
+                               XdmfCell{"Pyramid_13", 39},
+                               XdmfCell{"Wedge_15", 40},
+                               XdmfCell{"Hexahedron_27", 50},
+                               XdmfCell{"Edge_3", 34},
+                               XdmfCell{"Quadrilateral_8", 37},
+                               XdmfCell{"Hexahedron_20", 48}};
+
 const char* nameOf(std::optional<mesh::CellType> type) {
-  constexpr std::array names{"Triangle",
-                             "Quadrilateral",
-                             "Tetrahedron",
-                             "Hexahedron",
-                             "Polyline\" NodesPerElement=\"2", // in the order of CellType
-                             "Triangle_6",
-                             "Quadrilateral_9",
-                             "Tetrahedron_10",
-                             "Hexahedron_27",
-                             "Edge_3",
-                             "Quadrilateral_8",
-                             "Hexahedron_20"};
-  return type ? names.at(static_cast<std::size_t>(*type)) : "Polyvertex\" NodesPerElement=\"1";
+  return type ? xdmfCells.at(static_cast<std::size_t>(*type)).name : "Polyvertex\" NodesPerElement=\"1";
 }
 
 /// Writes the document's elements with the name of the HDF5 file at hand.
@@ -58,8 +69,8 @@ public:
 private:
   void grid(const XdmfGrid& grid) {
     text_ << "      <Grid Name=\"" << escaped(grid.name) << "\" GridType=\"Uniform\">\n";
-    text_ << "        <Topology TopologyType=\"" << nameOf(grid.cellType) << "\" NumberOfElements=\""
-          << grid.cells.rows << "\">\n";
+    text_ << "        <Topology TopologyType=\"" << (grid.numMixed ? "Mixed" : nameOf(grid.cellType))
+          << "\" NumberOfElements=\"" << grid.numMixed.value_or(grid.cells.rows) << "\">\n";
     item(grid.cells);
     text_ << "        </Topology>\n";
     text_ << "        <Geometry GeometryType=\"XYZ\">\n";
@@ -95,6 +106,10 @@ private:
 };
 
 } // namespace
+
+int xdmfNumber(mesh::CellType type) {
+  return xdmfCells.at(static_cast<std::size_t>(type)).number;
+}
 
 std::string xdmfDocument(const std::string& hdf5File, const std::vector<XdmfGrid>& grids,
                          const std::vector<XdmfStep>& steps) {

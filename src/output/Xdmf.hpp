@@ -28,14 +28,20 @@ struct XdmfAttribute {
   XdmfData data; ///< one column (or one dimension): scalar, three: vector, else matrix
 };
 
-/// A mesh of cells of one kind.
+/// A mesh.
 struct XdmfGrid {
   std::string name;
   XdmfData points;                        ///< n × 3
   std::optional<mesh::CellType> cellType; ///< nothing: points
   XdmfData cells; ///< n_e × nodes of a cell, in the order of VTK, which is that of CellType; points: n × 1
   std::vector<XdmfAttribute> attributes;
+  /// Of cells of several types their number; then `cells` is a sequence: of each its xdmfNumber and its
+  /// nodes.
+  std::optional<GlobalOrdinal> numMixed{};
 };
+
+/// Number of a type among cells of several types.
+int xdmfNumber(mesh::CellType type);
 
 /// A load step, whose time is its number.
 struct XdmfStep {

@@ -64,12 +64,14 @@ void describeMesh(ParameterList& list) {
       list, "Elements", Array<int>(),
       "Number of elements {nx, ny} in x and y, in space {nx, ny, nz}; required unless there is a mesh file.",
       counts);
-  list.set("Mesh", "",
-           "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) instead; relative to the scene's "
-           "directory. Triangles, quadrilaterals, tetrahedra or hexahedra, linear or quadratic. A name with "
-           "* (press_*.msh) "
-           "stands for the files that Gmsh saves of a partitioned mesh (gmsh -part 64 -part_split); ranks "
-           "read them side by side.");
+  list.set(
+      "Mesh", "",
+      "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) instead; relative to the scene's "
+      "directory. Triangles and quadrilaterals, tetrahedra, hexahedra, prisms and pyramids, one or several "
+      "of them in a body, linear or quadratic. A name with "
+      "* (press_*.msh) "
+      "stands for the files that Gmsh saves of a partitioned mesh (gmsh -part 64 -part_split); ranks "
+      "read them side by side.");
   addInteger(
       list, "Order", bestOrder,
       "Order of the elements: linear or quadratic. Of a mesh file (.msh) its own order counts if none is "
@@ -192,11 +194,14 @@ void describeBody(ParameterList& bodies) {
       list, "Integration", "full",
       "By how many points elements are integrated. reduced: by two along each axis, as others do (C3D20R, "
       "CPS8R), "
-      "of elastic bodies of quadrilaterals of 8 and hexahedra of 20 nodes alone. Such elements lock less and "
+      "of elastic bodies of quadrilaterals of 8 and hexahedra of 20 nodes; of prisms of 6 nodes by 2 points, "
+      "of 15 by 9 (C3D6, C3D15); of others fully. Such elements lock less and "
       "cost "
       "less, but are less reliable: single ones have motions without energy. A body, and a part of it, is "
       "refused "
-      "in which an element has no neighbours along two of its axes (in the plane along one); near loads at "
+      "in which an element has no neighbours along two of its axes (in the plane along one, a prism at a "
+      "side); "
+      "near loads at "
       "points "
       "and in coarse meshes displacements may waver all the same, and refining need not bring an error down "
       "steadily.",

@@ -11,6 +11,8 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <map>
+#include <span>
 #include <unordered_map>
 
 namespace epafi::simulation {
@@ -100,12 +102,16 @@ double penetrationOn(const mesh::Surface& surface, const ContactLayout& layout, 
   const auto begin = all.begin() + mine.first * static_cast<GlobalOrdinal>(perFacet);
   const std::vector<std::size_t> rows(begin, begin + mine.count * static_cast<GlobalOrdinal>(perFacet));
   const RowValues gaps(slack, layout, rows, toNodes);
-  const std::vector<Eigen::VectorXd> lattice = latticeOn(surface.facetType);
-  Eigen::VectorXd gap(lattice.front().size());
+  std::map<std::size_t, std::vector<Eigen::VectorXd>> lattices; // by the number of nodes
   double deepest = 0;
   for (std::size_t facet = 0; facet < rows.size(); facet += perFacet) {
-    for (std::size_t a = 0; a < perFacet; ++a)
-      gap[a] = gaps.at(rows[facet + a]);
+    const auto own = mesh::withoutFilling(std::span(rows).subspan(facet, perFacet));
+    std::vector<Eigen::VectorXd>& lattice = lattices[own.size()];
+    if (lattice.empty())
+      lattice = latticeOn(cellOf(surface.facetType, own.size()));
+    Eigen::VectorXd gap(own.size());
+    for (std::size_t a = 0; a < own.size(); ++a)
+      gap[a] = gaps.at(own[a]);
     for (const Eigen::VectorXd& shape : lattice)
       deepest = std::max(deepest, -shape.dot(gap));
   }
@@ -121,9 +127,12 @@ std::vector<long long> completeFacets(const ContactLayout& layout, const mesh::S
   std::vector<long long> corners;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
-    if (std::all_of(nodes.begin(), nodes.end(), [&](GlobalOrdinal node) { return rowOf.contains(node); }))
-      for (const GlobalOrdinal node : nodes)
-        corners.push_back(rowOf.at(node));
+    if (!std::all_of(nodes.begin(), nodes.end(), [&](GlobalOrdinal node) { return rowOf.contains(node); }))
+      continue;
+    const std::size_t first = corners.size();
+    for (const GlobalOrdinal node : nodes)
+      corners.push_back(rowOf.at(node));
+    mesh::fillRow(corners, first, surface.nodesPerFacet());
   }
   return corners;
 }

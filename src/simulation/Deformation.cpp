@@ -17,7 +17,7 @@ namespace {
 
 /// ∇u at an element's centre, 0 in what the plane has not, of solids of revolution the hoop strain there.
 Eigen::Matrix3d gradientAtCentre(const accuracy::BodyElements& body, const accuracy::ElementView& element) {
-  return withShape(body.cellType(), [&]<int dim>(const mesh::Shape<dim>& shape) {
+  return withShape(body.typeOf(element), [&]<int dim>(const mesh::Shape<dim>& shape) {
     const auto& sample = shape.centreSample();
     const mesh::ElementMap<dim> map(mesh::relativeCorners<dim>(element.points), sample);
     const auto nodal = Eigen::Map<const Eigen::Matrix<double, dim, Eigen::Dynamic>>(

@@ -177,10 +177,10 @@ Patch Pressures::patch(double share) const {
 MatrixXd Pressures::moments(const Patch& patch) const {
   MatrixXd sums = MatrixXd::Zero(numMonomials(), at(layout_.firstNodes.size()));
   std::vector<Point> points;
-  mesh::withFacetShape(surface_.facetType, [&]<int dim>(const mesh::Shape<dim>& shape) {
-    const mesh::Shape<dim>& fine = mesh::referenceShape<dim>(mesh::withOrder(shape.type, 2));
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      mesh_.pointsAt(surface_.facet(f), points);
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    mesh_.pointsAt(surface_.facet(f), points);
+    mesh::withFacetShape(surface_.typeOf(f), [&]<int dim>(const mesh::Shape<dim>& shape) {
+      const mesh::Shape<dim>& fine = mesh::referenceShape<dim>(mesh::withOrder(shape.type, 2));
       const Eigen::Map<const Eigen::Matrix3Xd> nodes(points.front().data(), 3, shape.numNodes);
       for (const auto& rule : fine.fineSamples()) {
         const auto sample = shape.sampleAt(rule.xi, rule.weight);
@@ -192,8 +192,8 @@ MatrixXd Pressures::moments(const Patch& patch) const {
           if (facets_[f][a] != none)
             sums.col(at(facets_[f][a])) += sample.values[at(a)] * values;
       }
-    }
-  });
+    });
+  }
   sums = combined(sums);
   return sums * sums.row(0).cwiseInverse().asDiagonal();
 }

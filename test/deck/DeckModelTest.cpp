@@ -2,6 +2,7 @@
 
 #include "Decks.hpp"
 
+#include "epafi/deck/DeckMesh.hpp"
 #include "epafi/deck/DeckModel.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -47,6 +48,19 @@ TEST(DeckModelTest, BodiesAreWhatHangsTogetherByFaces) {
   ASSERT_EQ(two.nodeNumbers.size(), 2u);
   EXPECT_EQ(two.nodeNumbers[1], (std::vector<GlobalOrdinal>{15, 16, 17, 18, 25, 26, 27, 28}));
   EXPECT_EQ(two.elementNumbers[1], std::vector<GlobalOrdinal>{2});
+}
+
+/// Of one order, and bricks and prisms integrated alike: C3D6 by fewer points, of which C3D8 have no way.
+TEST(DeckModelTest, ABodyHasElementsOfSeveralShapes) {
+  const std::string prism = "*NODE\n30,2,0,0\n31,2,0,1\n*ELEMENT,TYPE=C3D6,ELSET=EALL\n3,2,30,3,6,31,7\n";
+  deck::DeckModel model = modelOf(cubes(joined, prism + oneStep + "*SURFACE,NAME=SIDE\n3,S3\n3,S1\n1,S1\n"));
+  ASSERT_EQ(model.nodeNumbers.size(), 1u);
+  EXPECT_EQ(model.elementNumbers[0], (std::vector<GlobalOrdinal>{1, 2, 3}));
+  EXPECT_EQ(bodyOf(model, 1).get<std::string>("Integration"), "reduced");
+  EXPECT_TRUE(model.notes.empty());
+  const std::string text =
+      deck::mshText(deck::parseDeck(cubes(joined, prism + oneStep), "a.inp"), model.groups);
+  EXPECT_NE(text.find("\n3 2 30 3 6 31 7\n"), std::string::npos) << text;
 }
 
 TEST(DeckModelTest, NodesThatBodiesShareAreJoinedByEquations) {

@@ -55,10 +55,12 @@ TEST(ReducedIntegrationTest, LeavesOneElementMotionsWithoutEnergy) {
 }
 
 /// Number of motions without energy of elements side by side.
-Eigen::Index kernelOf(mesh::CellType type, std::array<int, 3> elements) {
+Eigen::Index kernelOf(mesh::CellType type, std::array<int, 3> elements, Cut cut = Cut::none, int order = 2) {
   const mesh::StructuredMesh grid({{0, 0, 0}, {1.0 * elements[0], 1.0 * elements[1], 1.0 * elements[2]}},
                                   elements);
-  const mesh::MeshArrays arrays = completed(arraysOf(grid, {}, false), false, mesh::InnerNodes::none);
+  mesh::MeshArrays arrays = arraysOf(grid, {}, cut);
+  if (order == 2)
+    arrays = completed(std::move(arrays), false, mesh::InnerNodes::none);
   EXPECT_EQ(arrays.cellType, type);
   const int n = dimensionOf(type);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(arrays.points) * n, std::ssize(arrays.points) * n);
@@ -67,7 +69,7 @@ Eigen::Index kernelOf(mesh::CellType type, std::array<int, 3> elements) {
     std::vector<Point> points;
     for (const LocalOrdinal node : nodes)
       points.push_back(arrays.points[node]);
-    const Eigen::MatrixXd stiffness = stiffnessOf(type, points, Integration::reduced);
+    const Eigen::MatrixXd stiffness = stiffnessOf(cellOf(type, nodes.size()), points, Integration::reduced);
     for (Eigen::Index a = 0; a < std::ssize(nodes); ++a)
       for (Eigen::Index b = 0; b < std::ssize(nodes); ++b)
         sum.block(n * nodes[a], n * nodes[b], n, n) += stiffness.block(n * a, n * b, n, n);
@@ -80,6 +82,21 @@ TEST(ReducedIntegrationTest, NeighboursAlongAllAxesButOneLeaveRigidMotionsAlone)
   EXPECT_EQ(kernelOf(mesh::CellType::quadrilateral8, {2, 1, 0}), 3);
   EXPECT_EQ(kernelOf(mesh::CellType::hexahedron20, {2, 2, 1}), 6);
   EXPECT_EQ(kernelOf(mesh::CellType::hexahedron20, {3, 1, 1}), 6 + 4); // a row: one for each cross-section
+}
+
+/// A column of single prisms twists; in pairs, and beside hexahedra and pyramids, they do not.
+TEST(ReducedIntegrationTest, PrismsAtEachOthersSidesHaveRigidMotionsAlone) {
+  const Eigen::VectorXd one =
+      direct::eigenOf(
+          stiffnessOf(mesh::CellType::prism, distortedCell(mesh::CellType::prism, 23), Integration::reduced))
+          .values;
+  EXPECT_LT(one.head(7).cwiseAbs().maxCoeff(), 1e-13 * one[17]);
+  EXPECT_GT(one[7], 1e-3 * one[17]);
+  EXPECT_EQ(kernelOf(mesh::CellType::prism, {1, 1, 1}, Cut::prisms, 1), 6);
+  EXPECT_EQ(kernelOf(mesh::CellType::prism, {2, 1, 3}, Cut::prisms, 1), 6);
+  EXPECT_EQ(kernelOf(mesh::CellType::prism15, {1, 1, 1}, Cut::prisms), 6);
+  EXPECT_EQ(kernelOf(mesh::CellType::hexahedron, {4, 1, 2}, Cut::mixed, 1), 6);
+  EXPECT_EQ(kernelOf(mesh::CellType::hexahedron20, {4, 2, 1}, Cut::mixed), 6);
 }
 
 TEST(ReducedIntegrationTest, LoadsKeepTheirResultants) {

@@ -171,7 +171,7 @@ TEST(SolidModelTest, SaysWhatDoesNotGoTogether) {
   expectSays([&](Solid& s) { s.regions = {{"inlay", {{8, 8, 8}, {9, 9, 9}}, "", {}}}; }, "inlay");
   expectSays([&](Solid& s) { s.loads = {{"pin", Kind::point, {}, "", {1.1, 0, 0}, {}}}; }, "no node");
   expectSays([&](Solid& s) { s.physics = Physics::planeStrain; }, "hexahedron");
-  expectSays([&](Solid& s) { s.reducedIntegration = true; }, "hexahedra of 20 alone");
+  expectSays([&](Solid& s) { s.reducedIntegration = true; }, "hexahedra of 20 and prisms");
   expectSays(
       [&](Solid& s) {
         s.supports = {{"a", "left", {held, free, free}}, {"b", "top", {other, free, free}}};

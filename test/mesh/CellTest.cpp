@@ -37,7 +37,7 @@ TEST(CellTest, FacetsCloseTheBoundary) {
     const std::size_t n = numNodesOf(type);
     std::vector<int> balance(n * n, 0);
     for (const auto& facet : facetsOf(type)) {
-      const int corners = numCornersOf(facetTypeOf(type));
+      const int corners = numCornersOf(facet.type);
       if (dimensionOf(type) == 2) {
         balance[facet[0]] += 1; // ends of edges
         balance[facet[1]] -= 1;

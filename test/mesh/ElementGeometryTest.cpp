@@ -19,7 +19,7 @@ std::vector<double> sharesOf(CellType facet, const Points& points) {
 }
 
 TEST(ElementGeometryTest, MeasuresOfUnitCellsAreTheKnownOnes) {
-  const double expected[] = {0.5, 1, 1.0 / 6, 1, 0.5, 1, 1.0 / 6, 1, 1, 1};
+  const double expected[] = {0.5, 1, 1.0 / 6, 1, 1.0 / 3, 0.5, 1.0 / 3, 0.5, 0.5, 1, 1.0 / 6, 1, 1, 1};
   for (std::size_t i = 0; i < allCellTypes.size(); ++i) {
     const CellType type = allCellTypes[i];
     EXPECT_NEAR(measureOf(type, unitCell(type)), expected[i], 1e-15) << toString(type);

@@ -84,8 +84,17 @@ double leastSampled(const Shape<dim>& shape, const std::vector<Point>& points) {
       xi[i] = (rest % (n + 1)) / static_cast<double>(n);
     if (shape.isSimplex && xi.sum() > 1)
       continue;
-    if (!shape.isSimplex)
+    if (!shape.isSimplex && numCornersOf(shape.type) == 6 && xi[0] + xi[1] > 1)
+      continue;
+    if (shape.isBrick) {
       xi = 2 * xi - Coordinates<dim>::Ones();
+    } else if (numCornersOf(shape.type) == 6) {
+      xi[dim - 1] = 2 * xi[dim - 1] - 1;
+    } else if (!shape.isSimplex) { // a pyramid; its top depends on where one comes from
+      const double r = std::max(1 - xi[dim - 1], 0x1p-20);
+      xi = r * (2 * xi - Coordinates<dim>::Ones());
+      xi[dim - 1] = 1 - r;
+    }
     least = std::min(least, shape.measure * ElementMap<dim>(corners, shape.sampleAt(xi)).determinant());
   }
   return least;

@@ -4,6 +4,7 @@
 #include "support/SampleCells.hpp"
 #include "support/TurnedMesh.hpp"
 
+#include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/meshing/GmshReader.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,10 @@ MeshArrays boxOf(CellType type) {
   const bool inSpace = dimensionOf(type) == 3;
   const StructuredMesh mesh({{0, 0, 0}, {1, 1, 1}}, inSpace ? std::array{2, 3, 2} : std::array{3, 2, 0});
   return test::arraysOf(mesh, test::placed(dimensionOf(type), 0.4, {1, 2, inSpace ? 3.0 : 0.0}),
-                        type == CellType::triangle || type == CellType::tetrahedron);
+                        type == CellType::prism                                       ? Cut::prisms
+                        : type == CellType::pyramid                                   ? Cut::pyramids
+                        : type == CellType::triangle || type == CellType::tetrahedron ? Cut::simplices
+                                                                                      : Cut::none);
 }
 
 /// Nodes of order 2: those of order 1, the edges, and of bricks the faces with four corners and the elements.
@@ -34,7 +38,7 @@ std::size_t numNodesOfOrderTwo(const MeshArrays& mesh) {
     for (std::size_t i = 0; i < edges.size(); i += 2)
       entities.insert({nodes[edges[i]], nodes[edges[i + 1]]});
     for (const Facet& facet : facetsOf(mesh.cellType))
-      if (facet.type == CellType::quadrilateral) {
+      if (mesh.cellType == CellType::hexahedron) {
         std::set<LocalOrdinal> corners;
         for (const int place : facet)
           corners.insert(nodes[place]);
@@ -64,6 +68,35 @@ TEST_F(MeshOrderTest, EachEntityHasOneNodeAndStraightElementsTheirNodesInTheMidd
     const UnstructuredMesh mesh(quadratic);
     EXPECT_EQ(mesh.surfaceNames(), UnstructuredMesh(linear).surfaceNames());
     EXPECT_EQ(mesh.surface("left").elements, UnstructuredMesh(linear).surface("left").elements);
+  }
+}
+
+/// What stands beside others has the nodes of edges alone, whatever is asked for.
+TEST_F(MeshOrderTest, MixedMeshesAreOfOrderTwoAndBackElementByElement) {
+  for (const bool inSpace : {false, true}) {
+    const StructuredMesh grid({{0, 0, 0}, {1, 1, 1}}, {5, 2, inSpace ? 2 : 0});
+    const MeshArrays linear = arraysOf(grid, {}, Cut::mixed), quadratic = completed(linear, false),
+                     again = linearised(quadratic);
+    EXPECT_EQ(quadratic.cellType, inSpace ? CellType::hexahedron20 : CellType::quadrilateral9);
+    std::set<CellType> types;
+    for (LocalOrdinal e = 0; e < linear.numElements(); ++e) {
+      const CellType type = cellOf(linear.cellType, nodesOf(linear.cellType, linear.cells, e).size());
+      types.insert(type);
+      EXPECT_EQ(cellOf(quadratic.cellType, nodesOf(quadratic.cellType, quadratic.cells, e).size()),
+                inSpace ? withoutInnerNodes(withOrder(type, 2)) : withOrder(type, 2));
+    }
+    EXPECT_EQ(types.size(), inSpace ? 4U : 2U);
+    EXPECT_EQ(again.cells, linear.cells);
+    EXPECT_EQ(again.points, linear.points);
+    const UnstructuredMesh one(linear), two(quadratic);
+    EXPECT_EQ(two.surface("left").elements, one.surface("left").elements);
+    double volume = 0;
+    for (GlobalOrdinal e = 0; e < two.numElements(); ++e) {
+      std::vector<Point> points;
+      two.elementPoints(e, points);
+      volume += measureOf(ElementNodes(two, e).type(), points);
+    }
+    EXPECT_NEAR(volume, 1, 1e-13);
   }
 }
 

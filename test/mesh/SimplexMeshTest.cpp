@@ -2,7 +2,10 @@
 
 #include "epafi/mesh/SimplexMesh.hpp"
 
+#include "epafi/mesh/MeshOrder.hpp"
+
 #include "support/SimplexSamples.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +50,20 @@ TEST(SimplexMeshTest, AGridBecomesASoundMeshOfTheSameSizeWithTheSameSurfaces) {
         for (const std::string& name : grid.surfaceNames())
           EXPECT_NEAR(measureOfSurface(body, name), measureOfSurface(grid, name), 1e-13) << name;
       }
+    }
+}
+
+/// Prisms and pyramids round their lowest nodes, faces from theirs on.
+TEST(SimplexMeshTest, ElementsOfSeveralShapesBecomeASoundMeshOfTheSameSizeWithTheSameSurfaces) {
+  for (const auto& elements : grids)
+    for (const int order : {1, 2}) {
+      MeshArrays arrays = arraysOf(StructuredMesh(box, elements), {}, Cut::mixed);
+      if (order == 2)
+        arrays = completed(std::move(arrays), false);
+      const UnstructuredMesh mixed(arrays), body = soundBody(simplicesOf(mixed));
+      EXPECT_NEAR(sumOf(measuresOf(body)), sumOf(measuresOf(mixed)), 1e-13);
+      for (const std::string& name : mixed.surfaceNames())
+        EXPECT_NEAR(measureOfSurface(body, name), measureOfSurface(mixed, name), 1e-13) << name;
     }
 }
 

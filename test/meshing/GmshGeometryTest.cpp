@@ -1,10 +1,12 @@
 #include "support/GmshPlate.hpp"
 
 #include "epafi/meshing/GmshReader.hpp"
+#include "epafi/meshing/MshReader.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 namespace epafi::meshing {
 namespace {
@@ -19,10 +21,10 @@ using GmshGeometryTest = test::GmshTest;
 /// Neighbours are mutual and share a facet's nodes; nodes and elements know each other; boundary nodes are
 /// those of facets without a neighbour.
 void expectConsistent(const mesh::Mesh& mesh) {
-  std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement()), other = nodes, list, back;
+  std::vector<GlobalOrdinal> list, back;
   std::vector<int> counts(mesh.numNodes(), 0);
   for (GlobalOrdinal e = 0; e < mesh.numElements(); ++e) {
-    mesh.elementNodes(e, nodes);
+    const mesh::ElementNodes nodes(mesh, e);
     for (const GlobalOrdinal node : nodes) {
       ++counts[node];
       mesh.nodeElements(node, list);
@@ -33,11 +35,12 @@ void expectConsistent(const mesh::Mesh& mesh) {
     for (const GlobalOrdinal neighbour : list) {
       mesh.elementNeighbours(neighbour, back);
       EXPECT_EQ(std::count(back.begin(), back.end(), e), 1);
-      mesh.elementNodes(neighbour, other);
+      const mesh::ElementNodes other(mesh, neighbour);
       const auto common = std::count_if(nodes.begin(), nodes.end(), [&](GlobalOrdinal node) {
         return std::find(other.begin(), other.end(), node) != other.end();
       });
-      EXPECT_EQ(common, nodesPerFacet(mesh.cellType()));
+      const auto facets = facetsOf(nodes.type());
+      EXPECT_TRUE(common == std::ssize(facets.front().nodes) || common == std::ssize(facets.back().nodes));
     }
   }
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
@@ -55,12 +58,10 @@ void expectEnclosed(const mesh::Mesh& mesh) {
   for (const std::string& name : mesh.surfaceNames()) {
     const mesh::Surface surface = mesh.surface(name);
     const std::vector<Eigen::Vector3d> areas = areaVectors(mesh, surface);
-    const std::size_t count = surface.nodesPerFacet();
     for (std::size_t f = 0; f < areas.size(); ++f) {
       Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-      for (std::size_t i = 0; i < count; ++i) {
-        const GlobalOrdinal node = surface.facetNodes[count * f + i];
-        centre += test::vectorOf(mesh.point(node)) / static_cast<double>(count);
+      for (const GlobalOrdinal node : surface.facet(f)) {
+        centre += test::vectorOf(mesh.point(node)) / static_cast<double>(surface.facet(f).size());
         isOnSurface[node] = true;
       }
       sum += areas[f];
@@ -92,6 +93,41 @@ Physical Curve("inner") = {4}; Physical Curve("outer") = {2}; Physical Curve("cu
   const mesh::Surface inner = mesh.surface("inner");
   for (const Eigen::Vector3d& normal : areaVectors(mesh, inner)) // away from the ring
     EXPECT_LT(normal[0] + normal[1], 0);
+}
+
+/// Layers of bricks or prisms below, tetrahedra above them; on bricks Gmsh puts pyramids.
+TEST_F(GmshGeometryTest, MeshesLayersUnderTetrahedra) {
+  using enum mesh::CellType;
+  for (const bool areBricks : {false, true}) {
+    const std::string geometry = R"(
+Mesh.CharacteristicLengthMax = 0.5;
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+)" + std::string(areBricks ? "Transfinite Surface {1}; Recombine Surface {1};\n" : "") +
+                                 R"(low() = Extrude {0, 0, 0.4} { Surface{1}; Layers{2}; Recombine; };
+high() = Extrude {0, 0, 0.7} { Surface{low(0)}; };
+Physical Volume("body") = {low(1), high(1)};
+Physical Surface("ends") = {1, high(0)};
+Physical Surface("sides") = {low(2), low(3), low(4), low(5), high(2), high(3), high(4), high(5)};
+)";
+    const std::string name = folder.write(areBricks ? "bricks.geo" : "prisms.geo", geometry);
+    const GmshFile file(name), quadratic(readMsh(name, textOfMeshFile(name, 1, 0, 2)));
+    const mesh::UnstructuredMesh linear = file.body("body"), two = quadratic.body("body");
+    EXPECT_EQ(linear.cellType(), areBricks ? hexahedron : prism);
+    EXPECT_EQ(two.cellType(), areBricks ? hexahedron20 : prism15);
+    EXPECT_EQ(two.numElements(), linear.numElements());
+    std::set<mesh::CellType> types;
+    for (GlobalOrdinal element = 0; element < linear.numElements(); ++element)
+      types.insert(mesh::ElementNodes(linear, element).type());
+    EXPECT_EQ(types,
+              areBricks ? (std::set{tetrahedron, pyramid, hexahedron}) : (std::set{tetrahedron, prism}));
+    EXPECT_NEAR(measureOf(linear), 1.1, 1e-12);
+    EXPECT_NEAR(measureOf(two), 1.1, 1e-12);
+    expectConsistent(linear);
+    expectConsistent(two);
+    expectEnclosed(linear);
+  }
 }
 
 TEST_F(GmshGeometryTest, MeshesQuadrilateralsOfAGeometry) {

@@ -37,14 +37,14 @@ TEST_F(GmshRefusalsTest, NamesTheGroupsThereAre) {
   expectRefused(replaced(plate41, "\"right\"", "\"west\""), {"two physical groups \"west\" of dimension 2"});
 }
 
-TEST_F(GmshRefusalsTest, RefusesMixedAndCurvedElements) {
+TEST_F(GmshRefusalsTest, RefusesElementsThatDoNotGoTogetherAndCurvedOnes) {
   const std::string mixed = replaced(replaced(plate22, "$Elements\n4", "$Elements\n5"), "3 3 2 3 2 2 3 6 5",
                                      "3 2 2 3 2 2 3 6\n5 2 2 3 2 2 6 5");
-  expectRefused(mixed,
-                {"Mesh file", "mixes triangles and quadrilaterals", "triangles alone or of quadrilaterals"});
-  expectRefused(replaced(mixed, "2 3 2 2 1", "2 3 2 3 1"), {"Body \"right\"", "mixes"}, "right");
-  const mesh::UnstructuredMesh right = plate(mixed).body("right"); // each body of one kind
+  const mesh::UnstructuredMesh right = plate(mixed).body("right"); // what is alone has a type of its own
   EXPECT_EQ(right.cellType(), mesh::CellType::triangle);
+  EXPECT_EQ(plate(mixed).body("").cellType(), mesh::CellType::quadrilateral);
+  expectRefused(replaced(mixed, "3 2 2 3 2 2 3 6", "3 9 2 3 2 2 3 6 1 4 5"),
+                {"Mesh file", "mixes elements of"});
   expectRefused(R"(SetFactory("OpenCASCADE");
 Rectangle(1) = {0, 0, 0, 1, 1};
 Mesh.ElementOrder = 3;
@@ -54,20 +54,32 @@ Mesh.ElementOrder = 3;
 2.2 0 8
 $EndMeshFormat
 $Nodes
-6
+18
 1 0 0 0
 2 1 0 0
 3 0 1 0
 4 0 0 1
 5 1 0 1
 6 0 1 1
+7 0.5 0 0
+8 0 0.5 0
+9 0 0 0.5
+10 0.5 0.5 0
+11 1 0 0.5
+12 0 1 0.5
+13 0.5 0 1
+14 0 0.5 1
+15 0.5 0.5 1
+16 0.5 0 0.5
+17 0 0.5 0.5
+18 0.5 0.5 0.5
 $EndNodes
 $Elements
 1
-1 6 2 0 1 1 2 3 4 5 6
+1 13 2 0 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18
 $EndElements
 )",
-                {"is made of prisms", "tetrahedra alone or of hexahedra alone"});
+                {"has prisms with nodes in the middle of their faces", "Mesh.SecondOrderIncomplete = 1"});
 }
 
 TEST_F(GmshRefusalsTest, RefusesWhatTheChecksRefuseByTheFilesNumbers) {

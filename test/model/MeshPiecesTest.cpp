@@ -115,11 +115,12 @@ INSTANTIATE_TEST_SUITE_P(OrdersAndJoints, MeshPiecesTest,
                                          std::tuple(2, scene::SurfaceContact::Kind::contact, 2),
                                          std::tuple(2, scene::SurfaceContact::Kind::tied, 0)));
 
-/// Hexahedra of 20 nodes, integrated by fewer points.
-scene::Scene bricks(const MeshFolder& folder, std::array<int, 3> elements, int parts) {
+/// Hexahedra of 20 nodes, perhaps among others, integrated by fewer points.
+scene::Scene bricks(const MeshFolder& folder, std::array<int, 3> elements, int parts,
+                    epafi::test::Cut cut = epafi::test::Cut::none) {
   const mesh::StructuredMesh grid({{0, 0, 0}, {2, 3, 4}}, elements);
   const mesh::MeshArrays arrays =
-      completed(epafi::test::arraysOf(grid, epafi::test::placed(3, 0.4, {0, 0, 0}), false), false,
+      completed(epafi::test::arraysOf(grid, epafi::test::placed(3, 0.4, {0, 0, 0}), cut), false,
                 mesh::InnerNodes::none);
   scene::Scene scene;
   scene.bodies = {body("lower", folder, parts, 0)};
@@ -129,20 +130,29 @@ scene::Scene bricks(const MeshFolder& folder, std::array<int, 3> elements, int p
   only.mesh.innerNodes = mesh::InnerNodes::none;
   only.reducedIntegration = true;
   only.supports = {{"wall", "left", {0.0, 0.0, 0.0}}};
-  only.loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "right", {}, {3, 0, 0}}};
+  only.loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "right", {}, {3, 0, 0}},
+                {"lid", fem::SolidLoad::Kind::pressure, {}, "top", {}, {1, 0, 0}}};
   return scene;
 }
 
 TEST(BrickPiecesTest, AreTheSameWhereElementsOfTwentyNodesAreIntegratedByFewerPoints) {
   const MeshFolder folder;
-  for (const int parts : {0, 3, 12, 60}) {
-    const scene::Scene scene = bricks(folder, {3, 4, 5}, parts);
+  for (const auto& [parts, cut] : {std::pair(0, epafi::test::Cut::none),
+                                   {3, epafi::test::Cut::none},
+                                   {12, epafi::test::Cut::none},
+                                   {60, epafi::test::Cut::none},
+                                   {7, epafi::test::Cut::mixed}}) {
+    const scene::Scene scene = bricks(folder, {3, 4, 5}, parts, cut);
     const Decomposition whole = decompose(scene, world()), pieces = decompose(scene, world(), Meshes::pieces);
     EXPECT_EQ(whole.bodies[0].mesh->cellType(), mesh::CellType::hexahedron20);
     EXPECT_EQ(pieces.bodies[0].mesh->cellType(), mesh::CellType::hexahedron20);
     ASSERT_EQ(pieces.problem.subdomains.size(), whole.problem.subdomains.size());
     for (std::size_t s = 0; s < whole.problem.subdomains.size(); ++s)
       expectEqual(pieces.problem.subdomains[s], whole.problem.subdomains[s]);
+    const mesh::Surface lid = whole.bodies[0].mesh->surface("top"),
+                        again = pieces.bodies[0].mesh->surface("top");
+    EXPECT_EQ(lid.facetNodes, again.facetNodes);
+    EXPECT_EQ(lid.elements, again.elements);
   }
 }
 

@@ -1,9 +1,11 @@
 #include "support/Gathered.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
 #include "epafi/mesh/BracedElements.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
 #include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
@@ -309,9 +311,15 @@ TEST(PartitionTest, MeshesInPiecesAreNotCut) {
   }
 }
 
+/// The same with quadrilaterals of 8 or hexahedra of 20 nodes.
+mesh::MeshArrays withoutInner(mesh::MeshArrays arrays) {
+  return completed(std::move(arrays), false, mesh::InnerNodes::none);
+}
+
 TEST(PartitionTest, BracedPartsHaveNeighboursAlongAllAxesButOneOfEachElement) {
   for (const auto& counts : {std::array{12, 9, 0}, {6, 5, 4}, {9, 8, 1}}) {
-    const mesh::StructuredMesh mesh({{0, 0, 0}, {1, 1, 1}}, counts);
+    const mesh::StructuredMesh grid({{0, 0, 0}, {1, 1, 1}}, counts);
+    const mesh::UnstructuredMesh mesh(withoutInner(epafi::test::arraysOf(grid, {}, false)));
     const auto expectBraced = [&](const Partition& partition) {
       expectSound(partition, mesh);
       for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element)
@@ -327,8 +335,19 @@ TEST(PartitionTest, BracedPartsHaveNeighboursAlongAllAxesButOneOfEachElement) {
 
 /// Nothing can be done for a row of hexahedra.
 TEST(PartitionTest, ElementsThatTheBodyDoesNotBraceStayWhereTheyAre) {
-  const mesh::StructuredMesh mesh = boxMesh(7, 1, 1);
+  const mesh::UnstructuredMesh mesh(withoutInner(epafi::test::arraysOf(boxMesh(7, 1, 1), {}, false)));
   EXPECT_EQ(GraphPartition(mesh, 3, *world(), meshing::Parts::braced).numParts(), 1);
+}
+
+/// Of a column of single prisms neither; two side by side hold each other.
+TEST(PartitionTest, PrismsAreBracedByANeighbourAtASide) {
+  mesh::MeshArrays arrays = epafi::test::arraysOf(boxMesh(1, 1, 6), {}, epafi::test::Cut::prisms);
+  const mesh::UnstructuredMesh pairs(arrays);
+  EXPECT_GE(GraphPartition(pairs, 4, *world(), meshing::Parts::braced).numParts(), 2);
+  for (GlobalOrdinal element = 0; element < pairs.numElements(); ++element) {
+    EXPECT_TRUE(isBraced(pairs, element, [](GlobalOrdinal) { return true; }));
+    EXPECT_FALSE(isBraced(pairs, element, [&](GlobalOrdinal other) { return other % 2 == element % 2; }));
+  }
 }
 
 TEST(PartitionTest, AGroupedGridFallsIntoBlocks) {

@@ -145,6 +145,22 @@ TEST_F(FrdFileTest, NodesOnEdgesStandWhereTheFormatHasThem) {
     }
 }
 
+/// The prism is element 17 of CalculiX' example c3d15.inp as ccx writes it. The format has no pyramids.
+TEST_F(FrdFileTest, PrismsStandAsCalculixHasThemAndPyramidsAsHexahedraWithoutATop) {
+  const std::vector<GlobalOrdinal> prism{10, 18, 17, 44, 52, 51, 21, 34, 20, 55, 68, 54, 35, 43, 42},
+      pyramid{1, 2, 3, 4, 5};
+  std::string text;
+  putFrdElement(text, 17, 1, mesh::CellType::prism15, prism);
+  putFrdElement(text, 18, 1, mesh::CellType::pyramid, pyramid);
+  EXPECT_EQ(text,
+            " -1        17    5    0    1\n"
+            " -2        10        18        17        44        52        51        21        34        20"
+            "        35\n"
+            " -2        43        42        55        68        54\n"
+            " -1        18    1    0    1\n"
+            " -2         1         2         3         4         5         5         5         5\n");
+}
+
 TEST_F(FrdFileTest, ABarInTensionHasItsStressAtEveryNode) {
   const auto pulled = [](const Point& x) { // by 1 %, E = 200, ν = 0.3
     return std::array<double, 3>{0.01 * x[0], -0.003 * x[1], -0.003 * x[2]};

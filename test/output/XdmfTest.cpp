@@ -53,8 +53,21 @@ TEST(XdmfTest, EveryTypeOfCellHasItsName) {
   EXPECT_TRUE(contains(text(CellType::triangle, 3), "TopologyType=\"Triangle\""));
   EXPECT_TRUE(contains(text(CellType::tetrahedron, 4), "TopologyType=\"Tetrahedron\""));
   EXPECT_TRUE(contains(text(CellType::hexahedron, 8), "TopologyType=\"Hexahedron\""));
+  EXPECT_TRUE(contains(text(CellType::prism, 6), "TopologyType=\"Wedge\""));
+  EXPECT_TRUE(contains(text(CellType::pyramid13, 13), "TopologyType=\"Pyramid_13\""));
   EXPECT_TRUE(contains(text(CellType::quadrilateral8, 8), "TopologyType=\"Quadrilateral_8\""));
   EXPECT_TRUE(contains(text(CellType::hexahedron20, 20), "TopologyType=\"Hexahedron_20\""));
+}
+
+/// A prism and a pyramid: each its number and its nodes.
+TEST(XdmfTest, CellsOfSeveralTypesAreASequence) {
+  XdmfGrid grid{"a", {"/p", 7, 3}, CellType::prism, {"/c", 13, 0, Type::integer8}, {}};
+  grid.numMixed = 2;
+  const std::string text = xdmfDocument("run.h5", {grid});
+  EXPECT_TRUE(contains(text, "TopologyType=\"Mixed\" NumberOfElements=\"2\""));
+  EXPECT_TRUE(contains(text, "Dimensions=\"13\""));
+  EXPECT_EQ(xdmfNumber(CellType::prism), 8);
+  EXPECT_EQ(xdmfNumber(CellType::pyramid), 7);
 }
 
 TEST(XdmfTest, KindOfAttributeFollowsTheNumberOfColumns) {

@@ -30,6 +30,23 @@ class Surfaces(unittest.TestCase):
                 normal = render.normals(points[facets])
             self.assertTrue(((normal * outwards).sum(axis=1) > 0).all(), cell_type)
 
+    def test_cells_of_several_shapes_have_the_facets_of_their_shapes(self):
+        # A cube, a prism and a pyramid at its sides, and a tetrahedron on the pyramid: 4 + 4 + 3 + 3 facets are outside.
+        points = numpy.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1),
+                              (2, 0, 0), (2, 0, 1), (0.5, 0.5, 2), (0.5, -1, 1.5)], float)
+        rows = [(0, 1, 2, 3, 4, 5, 6, 7), (1, 8, 2, 5, 9, 6, 6, 6), (4, 5, 6, 7, 10, 10, 10, 10), (4, 5, 10, 11, 11, 11, 11, 11)]
+        shape, mesh, whole = cells.linear("hexahedron", numpy.array(rows))
+        facets, cell = cells.outer_facets(shape, mesh)
+        self.assertEqual(numpy.bincount(cell).tolist(), [4, 4, 3, 3])
+        self.assertEqual(whole.tolist(), [0, 1, 2, 3])
+        corners, polygon, _ = cells.triangles(facets)
+        self.assertEqual(len(corners), 4 * 2 + (2 * 2 + 2) + 3 + 3)
+        outwards = points[corners].mean(axis=1) - points[mesh[cell[polygon]]].mean(axis=1)
+        first, second = points[corners[:, 1]] - points[corners[:, 0]], points[corners[:, 2]] - points[corners[:, 0]]
+        self.assertTrue(((numpy.cross(first, second) * outwards).sum(axis=1)[cell[polygon] < 3] > 0).all())
+        ends, _ = cells.edges(facets)
+        self.assertTrue((ends[:, 0] != ends[:, 1]).all())
+
     def test_facets_between_owners_are_outer_ones_of_both(self):
         points, mesh = elastic_runs.block("hexahedron", 4, 0.0)
         owner = (points[mesh].mean(axis=1)[:, 0] > 0.5).astype(int)

@@ -103,12 +103,9 @@ inline std::string replaced(std::string text, const std::string& from, const std
 }
 
 inline double measureOf(const mesh::Mesh& mesh, GlobalOrdinal element) {
-  std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement());
-  mesh.elementNodes(element, nodes);
-  std::vector<Point> corners;
-  for (const GlobalOrdinal node : nodes)
-    corners.push_back(mesh.point(node));
-  return shapeOf(mesh.cellType(), corners).measure;
+  std::vector<Point> points;
+  mesh.elementPoints(element, points);
+  return shapeOf(mesh::ElementNodes(mesh, element).type(), points).measure;
 }
 
 inline double measureOf(const mesh::Mesh& mesh) {

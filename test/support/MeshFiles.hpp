@@ -54,14 +54,13 @@ void expectRefusal(const Work& work, const std::vector<std::string>& parts) {
 /// so.
 inline std::vector<Eigen::Vector3d> areaVectors(const mesh::Mesh& mesh, const mesh::Surface& surface) {
   std::vector<Eigen::Vector3d> vectors;
-  const std::size_t count = surface.nodesPerFacet();
   for (std::size_t f = 0; f < surface.elements.size(); ++f) {
     std::vector<Eigen::Vector3d> x;
-    for (std::size_t i = 0; i < count; ++i)
-      x.push_back(vectorOf(mesh.point(surface.facetNodes[count * f + i])));
-    if (count == 2)
+    for (const GlobalOrdinal node : surface.facet(f))
+      x.push_back(vectorOf(mesh.point(node)));
+    if (x.size() == 2)
       vectors.emplace_back(x[1][1] - x[0][1], x[0][0] - x[1][0], 0.0);
-    else if (count == 3)
+    else if (x.size() == 3)
       vectors.emplace_back((x[1] - x[0]).cross(x[2] - x[0]) / 2);
     else
       vectors.emplace_back((x[2] - x[0]).cross(x[3] - x[1]) / 2);

@@ -22,13 +22,15 @@
 
 namespace epafi::test {
 
-inline constexpr std::array linearCellTypes{mesh::CellType::triangle, mesh::CellType::quadrilateral,
-                                            mesh::CellType::tetrahedron, mesh::CellType::hexahedron};
-inline constexpr std::array allCellTypes{mesh::CellType::triangle,       mesh::CellType::quadrilateral,
-                                         mesh::CellType::tetrahedron,    mesh::CellType::hexahedron,
-                                         mesh::CellType::triangle6,      mesh::CellType::quadrilateral9,
-                                         mesh::CellType::tetrahedron10,  mesh::CellType::hexahedron27,
-                                         mesh::CellType::quadrilateral8, mesh::CellType::hexahedron20};
+inline constexpr std::array linearCellTypes{mesh::CellType::triangle,    mesh::CellType::quadrilateral,
+                                            mesh::CellType::tetrahedron, mesh::CellType::pyramid,
+                                            mesh::CellType::prism,       mesh::CellType::hexahedron};
+inline constexpr std::array allCellTypes{
+    mesh::CellType::triangle,       mesh::CellType::quadrilateral, mesh::CellType::tetrahedron,
+    mesh::CellType::hexahedron,     mesh::CellType::pyramid,       mesh::CellType::prism,
+    mesh::CellType::pyramid13,      mesh::CellType::prism15,       mesh::CellType::triangle6,
+    mesh::CellType::quadrilateral9, mesh::CellType::tetrahedron10, mesh::CellType::hexahedron27,
+    mesh::CellType::quadrilateral8, mesh::CellType::hexahedron20};
 
 /// Physics that go with a type of cell, membranes apart.
 inline std::vector<fem::Physics> elasticPhysics(mesh::CellType type) {
@@ -85,6 +87,10 @@ inline std::vector<Point> unitCell(mesh::CellType type) {
     return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   case mesh::CellType::tetrahedron:
     return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  case mesh::CellType::pyramid:
+    return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
+  case mesh::CellType::prism:
+    return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   default:
     break;
   }
@@ -148,8 +154,11 @@ inline std::vector<Point> inverted(mesh::CellType type, std::vector<Point> point
     points.resize(numCornersOf(type));
     return withAllNodes(type, inverted(withOrder(type, 1), std::move(points)));
   }
-  if (type == mesh::CellType::hexahedron)
-    std::swap_ranges(points.begin(), points.begin() + 4, points.begin() + 4);
+  const auto half = static_cast<std::ptrdiff_t>(points.size() / 2);
+  if (type == mesh::CellType::hexahedron || type == mesh::CellType::prism)
+    std::swap_ranges(points.begin(), points.begin() + half, points.begin() + half);
+  else if (type == mesh::CellType::pyramid)
+    std::swap(points[1], points[3]);
   else if (type == mesh::CellType::quadrilateral)
     std::reverse(points.begin(), points.end());
   else
@@ -174,10 +183,10 @@ inline std::vector<Point> facetPoints(mesh::CellType /*type*/, std::span<const P
 }
 
 /// Adds a facet's load to that of the element.
-inline void addFacetLoad(mesh::CellType type, const mesh::Facet& facet, const Eigen::VectorXd& facetLoad,
+inline void addFacetLoad(mesh::CellType /*type*/, const mesh::Facet& facet, const Eigen::VectorXd& facetLoad,
                          Eigen::VectorXd& load) {
-  const auto components = facetLoad.size() / nodesPerFacet(type);
-  for (int i = 0; i < nodesPerFacet(type); ++i)
+  const auto number = static_cast<Eigen::Index>(facet.size()), components = facetLoad.size() / number;
+  for (Eigen::Index i = 0; i < number; ++i)
     load.segment(facet[i] * components, components) += facetLoad.segment(i * components, components);
 }
 

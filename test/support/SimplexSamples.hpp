@@ -81,7 +81,7 @@ inline std::vector<double> measuresOf(const mesh::Mesh& mesh) {
   std::vector<Point> points;
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     mesh.elementPoints(element, points);
-    measures.push_back(measureOf(mesh.cellType(), points));
+    measures.push_back(measureOf(mesh::ElementNodes(mesh, element).type(), points));
   }
   return measures;
 }
@@ -102,11 +102,12 @@ inline double measureOfGroup(const mesh::Mesh& mesh, const std::string& name) {
 inline double measureOfSurface(const mesh::Mesh& mesh, const std::string& name) {
   const mesh::Surface surface = mesh.surface(name);
   std::vector<Point> points;
-  std::vector<double> shares(surface.nodesPerFacet());
+  std::vector<double> shares;
   double sum = 0;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     mesh.pointsAt(surface.facet(f), points);
-    nodalShares(surface.facetType, points, shares);
+    shares.resize(points.size());
+    nodalShares(surface.typeOf(f), points, shares);
     sum += sumOf(shares);
   }
   return sum;

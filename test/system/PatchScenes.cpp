@@ -88,11 +88,11 @@ meshing::MeshSource meshOf(const Kind& kind, bool isLower, double bottom, const 
   if (isLower && kind.lowerElements > 0 && isSpace)
     source.elements[1] = kind.lowerElements + 1;
   source.order = order;
-  if (kind.source == Source::structured && !isSimplex(cell) && !kind.isSerendipity)
+  if (kind.source == Source::structured && !isSimplex(cell) && !kind.isSerendipity && kind.cut == Cut::none)
     return source;
   const auto inner = kind.isSerendipity ? mesh::InnerNodes::none : mesh::InnerNodes::added;
   const mesh::StructuredMesh mesh(source.box, source.elements);
-  mesh::MeshArrays arrays = arraysOf(mesh, kind.placement(), isSimplex(cell));
+  mesh::MeshArrays arrays = arraysOf(mesh, kind.placement(), isSimplex(cell) ? Cut::simplices : kind.cut);
   if (kind.source == Source::curved)
     arrays = curved(std::move(arrays), inner);
   meshing::MeshSource file;

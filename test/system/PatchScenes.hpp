@@ -26,6 +26,7 @@ struct Kind {
   int upperElements = 0;           ///< along the joint, if not as usual
   bool isSerendipity = false;      ///< without inner nodes
   bool isReduced = false;          ///< integrated by fewer points
+  Cut cut = Cut::none;             ///< of the cells, if these are not simplices
 
   [[nodiscard]] int dimension() const { return mesh::dimensionOf(cell); }
   [[nodiscard]] epafi::test::Placement placement() const {
