@@ -25,7 +25,7 @@ deck::DeckModel modelIn(const std::string& scene) {
 std::vector<std::vector<GlobalOrdinal>> allDifferent(std::vector<std::vector<GlobalOrdinal>> numbers) {
   GlobalOrdinal last = 0;
   for (const std::vector<GlobalOrdinal>& own : numbers)
-    last = std::max(last, own.empty() ? 0 : own.back());
+    last = own.empty() ? last : std::max(last, *std::max_element(own.begin(), own.end()));
   std::set<GlobalOrdinal> known;
   for (std::vector<GlobalOrdinal>& own : numbers)
     for (GlobalOrdinal& number : own)

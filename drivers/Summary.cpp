@@ -229,6 +229,10 @@ void describeContact(std::ostream& text, const simulation::ContactResult& contac
     addBalance(text, *contact.balance);
 }
 
+void describePreload(std::ostream& text, const simulation::PreloadResult& preload) {
+  text << "tension " << rounded(preload.force) << ", shortened by " << rounded(preload.shortening);
+}
+
 void describeResults(std::ostream& text, const RunResult& result) {
   std::vector<simulation::BodyResult> elastic;
   std::copy_if(result.bodies.begin(), result.bodies.end(), std::back_inserter(elastic),
@@ -246,6 +250,8 @@ void describeResults(std::ostream& text, const RunResult& result) {
       text << noteIndent << tie.note;
     addBalance(text, tie.balance);
   });
+  describeEach(text, result.preloads, "bolt",
+               [&](const simulation::PreloadResult& preload) { describePreload(text, preload); });
 }
 
 /// Components that are round-off beside the largest force of a support are 0.
@@ -330,6 +336,11 @@ std::string describe(const simulation::StepResult& step) {
       text << ", friction (" << rounded(x) << ", " << rounded(y) << ", " << rounded(z) << "), sticks on "
            << rounded(contact.friction->stickArea) << ", slips on " << rounded(contact.friction->slipArea);
     }
+    text << '\n';
+  }
+  for (const simulation::PreloadResult& preload : step.preloads) {
+    text << "                " << preload.name << ": ";
+    describePreload(text, preload);
     text << '\n';
   }
   return text.str();

@@ -35,7 +35,8 @@ struct Equation {
   };
   std::vector<Term> terms; ///< at least one
   double value = 0;
-  std::string name{}; ///< for messages
+  std::string name{};   ///< for messages
+  double stiffness = 0; ///< of a spring (compliance 1/stiffness of its row); 0: none
 };
 
 /// The tangents of a contact's nodes, perpendicular to each other and to d, or to what of d lies in a plane

@@ -78,7 +78,7 @@ ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& firs
     if (first.normals[i].dot(direction) <= 0 || isSpringless(contact, areas, first, i))
       continue;
     layout.firstNodes.push_back(first.nodes[i]);
-    addRow(direction, contact.gapOf(gap), contact.dimension, layout);
+    addRow(direction, contact.gapOf(first.nodes[i], gap), contact.dimension, layout);
     areas.enter(i, layout);
   }
   if (isAnyNear && layout.firstNodes.empty())
@@ -112,7 +112,7 @@ ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first
     layout.firstNodes.push_back(first.nodes[i]);
     layout.secondNodes.push_back(second.shares[j]);
     const double gap = contact.components == 1 ? 0.0 : normal.dot(second.points[j] - first.points[i]);
-    addRow(normal, contact.gapOf(gap), contact.components, layout);
+    addRow(normal, contact.gapOf(first.nodes[i], gap), contact.components, layout);
     areas.enter(i, layout);
   }
   requireRows(contact, layout);

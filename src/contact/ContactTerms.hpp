@@ -3,6 +3,7 @@
 /// What is asked of a contact between two surfaces, or of a surface and an obstacle.
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Types.hpp"
 
 #include <Eigen/Core>
 
@@ -34,9 +35,13 @@ struct ContactTerms {
   double sense = 1;            ///< of a deflection: −1 if it is the second body that must stay below
   /// Gaps of geometry up to this, overlaps too, count as none: surfaces that are meant to touch there.
   double adjust = -std::numeric_limits<double>::infinity();
+  /// Whether that of a node of the first surface does, whatever it is; empty: of none.
+  std::function<bool(GlobalOrdinal node)> isAdjusted{};
 
-  /// c of a row whose places are so far apart.
-  [[nodiscard]] double gapOf(double apart) const { return (apart <= adjust ? 0 : apart) + gap; }
+  /// c of a row of a node that is so far from the other side.
+  [[nodiscard]] double gapOf(GlobalOrdinal node, double apart) const {
+    return (apart <= adjust || (isAdjusted && isAdjusted(node)) ? 0 : apart) + gap;
+  }
 };
 
 /// What is wrong with a contact, by its name.

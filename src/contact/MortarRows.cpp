@@ -218,7 +218,8 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   for (const MortarRow& row :
        maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, false, areas)) {
     const double apart = terms.components > 1 ? nodes.normals[row.place].dot(maker.apart(row)) : 0;
-    enter(row, nodes, areas, directionAt(row.place), terms.components, terms.gapOf(apart), layout);
+    enter(row, nodes, areas, directionAt(row.place), terms.components,
+          terms.gapOf(nodes.nodes[row.place], apart), layout);
     layout.numBent += terms.components > 1 && maker.isBent(row.place) ? 1 : 0;
   }
   requireMortarRows(terms, layout);

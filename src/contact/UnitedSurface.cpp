@@ -1,6 +1,7 @@
 #include "epafi/contact/UnitedSurface.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
 #include <utility>
 
@@ -30,6 +31,18 @@ UnitedSurface unite(const mesh::Mesh& mesh, std::span<const std::string> names) 
       }
   }
   return result;
+}
+
+void turnOver(mesh::Surface& surface) {
+  const int numCorners = mesh::numCornersOf(surface.facetType);
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    const auto corners =
+        surface.facetNodes.begin() + static_cast<std::ptrdiff_t>(f) * surface.nodesPerFacet();
+    std::reverse(corners, corners + numCorners);
+    if (mesh::orderOf(surface.facetType) ==
+        2) // then come the middles of edges, the last one from last to first
+      std::reverse(corners + numCorners, corners + 2 * numCorners - 1);
+  }
 }
 
 } // namespace epafi::contact

@@ -19,4 +19,7 @@ struct UnitedSurface {
 /// \param names  of surfaces that the mesh has, at least one
 UnitedSurface unite(const mesh::Mesh& mesh, std::span<const std::string> names);
 
+/// Turns the normals of all facets round.
+void turnOver(mesh::Surface& surface);
+
 } // namespace epafi::contact

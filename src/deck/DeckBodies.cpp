@@ -3,7 +3,9 @@
 #include "epafi/base/Errors.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -41,21 +43,48 @@ std::vector<Member> membersOf(const std::vector<const Elements*>& alike) {
   return members;
 }
 
-/// Of each element the lowest one that it is joined with by facets.
-std::vector<std::size_t> joined(const std::vector<Member>& members) {
-  std::vector<std::size_t> parents(members.size());
-  std::iota(parents.begin(), parents.end(), std::size_t{0});
-  std::map<Numbers, std::size_t> firstAt; // by the facet's corners, ascending
-  for (std::size_t e = 0; e < parents.size(); ++e)
-    for (const std::vector<int>& face : members[e].type->faces) {
+/// action(place of an element, its face from 1 on, the face's corners, ascending) for all faces.
+template <class Action>
+void forEachFace(const std::vector<Member>& members, const Action& action) {
+  for (std::size_t e = 0; e < members.size(); ++e)
+    for (int label = 1; label <= std::ssize(members[e].type->faces); ++label) {
       Numbers corners;
-      for (const int corner : face)
+      for (const int corner : members[e].type->faces[label - 1])
         corners.push_back(members[e].nodes[corner]);
       std::sort(corners.begin(), corners.end());
-      const auto [place, isNew] = firstAt.try_emplace(std::move(corners), e);
-      const std::size_t a = rootOf(parents, place->second), b = rootOf(parents, e);
-      parents[std::max(a, b)] = std::min(a, b);
+      action(e, label, std::move(corners));
     }
+}
+
+/// Corners of the faces at which bolts are cut.
+std::set<Numbers> cutsOf(const Deck& deck, const std::vector<Member>& members) {
+  std::set<std::pair<GlobalOrdinal, int>> sections;
+  for (const Pretension& pretension : deck.pretensions)
+    if (!pretension.element) {
+      const auto& faces = deck.surfaces.at(pretension.surface).faces;
+      sections.insert(faces.begin(), faces.end());
+    }
+  std::set<Numbers> cuts;
+  if (!sections.empty())
+    forEachFace(members, [&](std::size_t e, int label, Numbers corners) {
+      if (sections.contains({members[e].number, label}))
+        cuts.insert(std::move(corners));
+    });
+  return cuts;
+}
+
+/// Of each element the lowest one that it is joined with by facets. \param cuts  those that join none
+std::vector<std::size_t> joined(const std::vector<Member>& members, const std::set<Numbers>& cuts) {
+  std::vector<std::size_t> parents(members.size());
+  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  std::map<Numbers, std::size_t> firstAt; // by the facet's corners
+  forEachFace(members, [&](std::size_t e, int, Numbers corners) {
+    if (cuts.contains(corners))
+      return;
+    const auto [place, isNew] = firstAt.try_emplace(std::move(corners), e);
+    const std::size_t a = rootOf(parents, place->second), b = rootOf(parents, e);
+    parents[std::max(a, b)] = std::min(a, b);
+  });
   for (std::size_t e = 0; e < parents.size(); ++e)
     parents[e] = rootOf(parents, e);
   return parents;
@@ -91,7 +120,7 @@ std::vector<std::vector<const Elements*>> classesOf(const Deck& deck) {
 DeckBodies::DeckBodies(const Deck& deck) {
   findSections(deck);
   for (const std::vector<const Elements*>& alike : classesOf(deck))
-    addBodies(alike);
+    addBodies(deck, alike);
   if (bodies_.empty())
     throw InputError(deck.file + " has no elements with a *SOLID SECTION; there is nothing to solve");
   for (int b = 0; b < std::ssize(bodies_); ++b) {
@@ -112,9 +141,9 @@ void DeckBodies::findSections(const Deck& deck) {
       sectionOf_[element] = s;
 }
 
-void DeckBodies::addBodies(const std::vector<const Elements*>& alike) {
+void DeckBodies::addBodies(const Deck& deck, const std::vector<const Elements*>& alike) {
   const std::vector<Member> members = membersOf(alike);
-  const std::vector<std::size_t> first = joined(members);
+  const std::vector<std::size_t> first = joined(members, cutsOf(deck, members));
   std::map<std::size_t, std::size_t> bodyAt; // by its lowest element
   for (std::size_t e = 0; e < first.size(); ++e) {
     const auto& [number, among, type, nodes] = members[e];

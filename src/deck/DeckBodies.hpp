@@ -5,6 +5,7 @@
 #include "epafi/deck/Deck.hpp"
 #include "epafi/deck/DeckElements.hpp"
 
+#include <cstddef>
 #include <map>
 #include <span>
 #include <string>
@@ -13,7 +14,8 @@
 
 namespace epafi::deck {
 
-/// Elements of one physics and order, joined facet by facet.
+/// Elements of one physics and order, joined facet by facet, but not across sections at which bolts are
+/// tightened.
 struct DeckBody {
   std::string name;                    ///< "body 1"
   const ElementForm* type = nullptr;   ///< of its first element, or of one that is integrated by fewer points
@@ -47,7 +49,7 @@ public:
 private:
   void findSections(const Deck& deck);
   /// \param alike  all elements of which some may be in one body
-  void addBodies(const std::vector<const Elements*>& alike);
+  void addBodies(const Deck& deck, const std::vector<const Elements*>& alike);
 
   std::vector<DeckBody> bodies_;
   std::map<GlobalOrdinal, int> bodyOfElement_, sectionOf_;

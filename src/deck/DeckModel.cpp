@@ -34,19 +34,11 @@ std::vector<double> localAxesOf(const Orientation& orientation) {
 void refuseUnsolved(const Deck& deck) {
   if (deck.steps.empty())
     throw InputError(deck.file + " has no *STEP; there is nothing to solve");
-  if (!deck.pretensions.empty())
-    throw InputError(
-        text(deck.pretensions.front().place) +
-        ": *PRE-TENSION SECTION: bolts are not tightened here yet; give the section's ends forces");
   for (const Step& step : deck.steps)
     if (step.isPerturbation && deck.steps.size() > 1)
       throw InputError(text(step.place) +
                        ": *STEP: a step of PERTURBATION among others is not solved here; make it "
                        "a deck of its own");
-  for (const Step& step : deck.steps)
-    if (!step.pairs.empty())
-      throw InputError(text(step.pairs.front().place) +
-                       ": *MODEL CHANGE: contact pairs that come or go with a step are not solved here");
 }
 
 } // namespace
@@ -56,6 +48,8 @@ ModelMaker::ModelMaker(const Deck& deck, std::string mesh)
   refuseUnsolved(deck);
   loadFactors_.resize(deck.steps.size());
   supportFactors_.resize(deck.steps.size());
+  for (const Pretension& pretension : deck.pretensions)
+    tensions_[pretension.node].resize(deck.steps.size());
   for (int t = 0; t < std::ssize(deck.transforms); ++t)
     for (const GlobalOrdinal node : deck.transforms[t].nodes)
       transformOf_[node] = t;
@@ -159,6 +153,7 @@ DeckModel modelOf(const Deck& deck, const std::string& mesh) {
   ModelMaker maker(deck, mesh);
   maker.addBodies();
   maker.addSteps();
+  maker.addPretensions();
   maker.addEquations();
   maker.addContacts();
   return maker.take();

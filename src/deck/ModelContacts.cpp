@@ -2,6 +2,8 @@
 #include "epafi/base/ParameterValue.hpp"
 #include "epafi/deck/ModelMaker.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,45 +14,82 @@ namespace {
 /// Share of an element's size up to which *TIE bonds nodes if it does not say how far, as CalculiX has it.
 constexpr double usualTolerance = 0.025;
 
-/// A face of an element, and where it is.
-using Face = std::pair<GlobalOrdinal, int>;
-
 } // namespace
 
-/// Faces of one element alone all of whose corners are among some nodes. \throws InputError if a node is in
-/// none of them
-std::vector<Face> ModelMaker::facesAt(const Surface& surface, const std::string& name) const {
+/// ∫n over a face of flat elements, out of its element.
+Eigen::Vector3d ModelMaker::areaVectorOf(const Face& face) const {
+  using Eigen::Vector3d;
+  const auto at = [&](GlobalOrdinal node) {
+    return Vector3d(Eigen::Map<const Vector3d>(pointOf(node).data()));
+  };
+  const Numbers corners = bodies_.cornersOf(face);
+  Vector3d centre(0, 0, 0), area(0, 0, 0);
+  for (const GlobalOrdinal node : bodies_.nodesOf(face.first))
+    centre += at(node) / static_cast<double>(bodies_.nodesOf(face.first).size());
+  const Vector3d first = at(corners[0]), along = at(corners[1]) - first;
+  area = Vector3d(along.y(), -along.x(), 0);
+  if (corners.size() > 2)
+    area = 0.5 * along.cross(at(corners[2]) - first);
+  if (corners.size() > 3)
+    area += 0.5 * (at(corners[2]) - first).cross(at(corners[3]) - first);
+  return area.dot(first - centre) < 0 ? Vector3d(-area) : area;
+}
+
+/// Faces of one element alone all of whose corners are among some nodes; at nodes that have none of them
+/// those that look against a direction. \throws InputError if a node is in none of either
+std::vector<ModelMaker::Face> ModelMaker::facesAt(const Surface& surface, const std::string& name,
+                                                  const Eigen::Vector3d& against) const {
   std::map<Numbers, std::vector<Face>> facesOf; // by corners, ascending
+  const auto isNamed = [&](GlobalOrdinal node) {
+    return std::binary_search(surface.nodes.begin(), surface.nodes.end(), node);
+  };
   for (const DeckBody& body : bodies_.all())
     for (const GlobalOrdinal element : body.elements)
       for (int label = 1; label <= std::ssize(bodies_.typeOf(element).faces); ++label) {
         Numbers corners = bodies_.cornersOf({element, label});
         std::sort(corners.begin(), corners.end());
-        if (std::includes(surface.nodes.begin(), surface.nodes.end(), corners.begin(), corners.end()))
+        if (std::any_of(corners.begin(), corners.end(), isNamed))
           facesOf[corners].emplace_back(element, label);
       }
+  std::erase_if(facesOf, [](const auto& at) { return at.second.size() > 1; });
   std::vector<Face> faces;
   std::set<GlobalOrdinal> bare(surface.nodes.begin(), surface.nodes.end());
+  const auto add = [&](const Face& face) {
+    faces.push_back(face);
+    for (const GlobalOrdinal node : bodies_.nodesOf(face.first))
+      bare.erase(node);
+  };
   for (const auto& [corners, at] : facesOf)
-    if (at.size() == 1) {
-      faces.push_back(at.front());
-      for (const GlobalOrdinal node : bodies_.nodesOf(at.front().first))
-        bare.erase(node);
-    }
+    if (std::all_of(corners.begin(), corners.end(), isNamed))
+      add(at.front());
+  const std::set<GlobalOrdinal> left = bare;
+  for (const auto& [corners, at] : facesOf) {
+    constexpr double clearly = 0.7;
+    const Eigen::Vector3d area = areaVectorOf(at.front());
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&](GlobalOrdinal node) { return left.contains(node); }) &&
+        area.dot(against) < -clearly * area.norm() * against.norm())
+      add(at.front());
+  }
   if (!bare.empty())
     throw InputError(
         text(surface.place) + ": *SURFACE: node " + std::to_string(*bare.begin()) + " of " + name +
-        " belongs to no face of an element that has all its corners in it; define the surface by "
-        "the elements' faces");
+        " belongs to no face of an element that has all its corners in it, or looks at the other "
+        "surface; define the surface by the elements' faces");
   std::sort(faces.begin(), faces.end());
   return faces;
 }
 
-/// Bodies that have faces of a surface; the mesh has it under its name.
-std::set<int> ModelMaker::bodiesAt(const std::string& surface) {
+/// Bodies that have faces of a surface; the mesh has it under its name. \param facing  the surface that it
+/// faces; null: none is known
+std::set<int> ModelMaker::bodiesAt(const std::string& surface, const Surface* facing) {
   const Surface& given = deck_.surfaces.at(surface);
+  Eigen::Vector3d against(0, 0, 0);
+  if (given.ofNodes && facing != nullptr)
+    for (const Face& face : facing->faces)
+      against += areaVectorOf(face);
   std::vector<Face>& faces = model_.groups.surfaces[surface];
-  faces = given.ofNodes ? facesAt(given, surface) : given.faces;
+  faces = given.ofNodes ? facesAt(given, surface, against) : given.faces;
   std::set<int> bodies;
   for (const Face& face : faces)
     bodies.insert(bodies_.ofElement(face.first));
@@ -85,7 +124,8 @@ bool ModelMaker::hasNodesOf(const std::string& set, const std::string& surface) 
 std::vector<std::string> ModelMaker::addPairs(const std::string& name, const std::string& dependent,
                                               const std::string& independent, const Place& place) {
   Teuchos::ParameterList& contacts = model_.scene.sublist("Contact");
-  const std::set<int> first = bodiesAt(dependent), second = bodiesAt(independent);
+  const std::set<int> first = bodiesAt(dependent, &deck_.surfaces.at(independent)),
+                      second = bodiesAt(independent, nullptr);
   std::vector<std::string> names;
   for (const int body : first)
     for (const int other : second) {
@@ -118,6 +158,7 @@ void ModelMaker::addContactPair(const ContactPair& pair) {
   for (const std::string& name :
        addPairs(pair.dependent + " - " + pair.independent, pair.dependent, pair.independent, pair.place)) {
     contactsOf_[pair.interaction].push_back(name);
+    contactsBetween_[{pair.dependent, pair.independent}].push_back(name);
     Teuchos::ParameterList& list = model_.scene.sublist("Contact").sublist(name);
     if (interaction.friction > 0)
       list.set("Friction", interaction.friction);
@@ -126,19 +167,18 @@ void ModelMaker::addContactPair(const ContactPair& pair) {
     if (interaction.friction > 0 && interaction.stickSlope.value_or(0) > 0)
       list.set("Stick Slope", *interaction.stickSlope);
     constexpr double whatever = 1e30;
-    if (pair.adjust || !pair.adjustSet.empty())
+    if (pair.adjust || (!pair.adjustSet.empty() && hasNodesOf(pair.adjustSet, pair.dependent)))
       list.set("Adjust", pair.adjust.value_or(whatever));
+    else if (!pair.adjustSet.empty())
+      list.set("Adjust Nodes", nodesNamed(pair.adjustSet, deck_.nodeSets.at(pair.adjustSet)));
   }
-  if (!pair.adjustSet.empty() && !hasNodesOf(pair.adjustSet, pair.dependent))
-    throw InputError(text(pair.place) +
-                     ": *CONTACT PAIR: ADJUST with a part of the nodes is not solved here; "
-                     "give the gap up to which nodes are to be adjusted");
 }
 
 void ModelMaker::addContacts() {
   for (const ContactPair& pair : deck_.contacts)
     addContactPair(pair);
   changeFriction();
+  changePairs();
   for (const Tie& tie : deck_.ties)
     for (const std::string& name :
          addPairs(tie.name.empty() ? "tie" : tie.name, tie.dependent, tie.independent, tie.place)) {
@@ -166,6 +206,17 @@ void ModelMaker::changeFriction() {
     }
     if (!coefficients.empty() && deck_.steps.size() > 1)
       model_.scene.sublist("Steps").sublist("step " + std::to_string(k + 1)).set("Friction", coefficients);
+  }
+}
+
+void ModelMaker::changePairs() {
+  for (std::size_t k = 0; k < deck_.steps.size(); ++k) {
+    std::string states;
+    for (const PairChange& change : deck_.steps[k].pairs)
+      for (const std::string& contact : contactsBetween_.at({change.dependent, change.independent}))
+        states += contact + (change.isAdded ? " = on, " : " = off, ");
+    if (!states.empty())
+      model_.scene.sublist("Steps").sublist("step " + std::to_string(k + 1)).set("Contacts", states);
   }
 }
 

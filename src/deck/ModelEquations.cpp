@@ -63,22 +63,30 @@ void ModelMaker::addEquations() {
         continue;
       }
       const auto known = held.find({each.node, each.component - 1}); // a node that stands for a number
-      const auto changes = [](const std::vector<double>& values) {
-        return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) != values.end();
+      const auto changes = [](const std::vector<Hold>& holds) {
+        return std::any_of(holds.begin(), holds.end(), [&](const Hold& hold) {
+          return !hold.isHeld || hold.isFixed || hold != holds.front();
+        });
       };
       if (known == held.end() || changes(known->second))
         throw InputError(text(equation.place) + ": *EQUATION: node " + std::to_string(each.node) +
                          " belongs to no element, and no *BOUNDARY holds it at one value");
-      value -= each.factor * known->second.front();
+      value -= each.factor * known->second.front().value;
     }
     if (!terms.empty())
       addEquation("equation " + std::to_string(++number), terms, value);
   }
+  const auto isCut = [&](GlobalOrdinal node, int body, int other) {
+    return std::any_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) {
+      return std::minmax(cut.first, cut.second) == std::minmax(body, other) && cut.nodes.contains(node);
+    });
+  };
   for (const GlobalOrdinal node : deck_.nodes.numbers) { // bodies grow together where they share nodes
     const std::vector<int>& bodies = bodies_.ofNode(node);
     const Eigen::Matrix3d axes = bodies.size() > 1 ? axesOf(node) : Eigen::Matrix3d();
     for (std::size_t b = 1; b < bodies.size(); ++b)
-      for (int c = 0; c < bodies_.all()[bodies[b]].type->dimension; ++c)
+      for (int c = 0; !isCut(node, bodies[b - 1], bodies[b]) && c < bodies_.all()[bodies[b]].type->dimension;
+           ++c)
         addEquation("node " + std::to_string(node) + " of bodies " + std::to_string(bodies[b - 1] + 1) +
                         " and " + std::to_string(bodies[b] + 1) + ' ' + "XYZ"[c],
                     term(bodies[b - 1], node, axes.col(c)) + term(bodies[b], node, -axes.col(c)), 0);

@@ -78,12 +78,8 @@ ModelMaker::Prescribed ModelMaker::prescribed() const {
     for (const Boundary& boundary : boundaries)
       for (const GlobalOrdinal node : boundary.nodes)
         for (int c = boundary.first - 1; c < boundary.last; ++c) {
-          if (boundary.isFixed && !history.all().contains({node, c}))
-            refuse(boundary.place,
-                   "*BOUNDARY: FIXED holds what a step before has moved, which is not solved here");
           history.beginStep(false); // the last card holds
-          if (!boundary.isFixed)
-            history.add({node, c}, &boundary);
+          history.add({node, c}, &boundary);
         }
   };
   take(deck_.boundaries);
@@ -92,49 +88,52 @@ ModelMaker::Prescribed ModelMaker::prescribed() const {
     take(deck_.steps[k].boundaries);
     for (const auto& [key, cards] : history.all()) {
       const Boundary& card = *cards.back();
-      std::vector<double>& values = result[key];
-      if (values.size() != k)
-        refuse(card.place,
-               "*BOUNDARY: supports that come with a later step are not solved here; hold them from "
-               "the first step on");
-      values.push_back(card.value * factorAt(card.amplitude, card.delay, k));
+      if (card.isFixed && k == 0)
+        refuse(card.place, "*BOUNDARY: FIXED holds what a step before has moved, and there is none");
+      std::vector<Hold>& holds = result[key];
+      holds.resize(k); // free till now
+      holds.push_back(
+          {true, card.isFixed, card.isFixed ? 0 : card.value * factorAt(card.amplitude, card.delay, k)});
     }
   }
-  for (const auto& [key, values] : result)
-    if (values.size() != deck_.steps.size())
-      refuse(deck_.steps[values.size()].place,
-             "*STEP: supports that a step takes away are not solved here; keep "
-             "them, or make the step a deck of its own");
+  for (auto& [key, holds] : result)
+    holds.resize(deck_.steps.size());
   return result;
 }
 
 void ModelMaker::addSupports() {
   // Nodes with the same values in the same axes.
-  std::map<std::tuple<int, int, int, std::vector<double>>, Numbers> groups; // by body, transform, component
-  for (const auto& [key, values] : prescribed()) {
+  std::map<std::tuple<int, int, int, std::vector<Hold>>, Numbers> groups; // by body, transform, component
+  for (const auto& [key, holds] : prescribed()) {
     const auto transform = transformOf_.find(key.first);
     for (const int body : bodies_.ofNode(key.first))
-      groups[{body, transform == transformOf_.end() ? -1 : transform->second, key.second, values}].push_back(
+      groups[{body, transform == transformOf_.end() ? -1 : transform->second, key.second, holds}].push_back(
           key.first);
   }
   for (const auto& [key, nodes] : groups) {
-    const auto& [body, transform, component, values] = key;
+    const auto& [body, transform, component, holds] = key;
     if (component >= bodies_.all()[body].type->dimension)
       continue;
     const std::string name = "support " + std::to_string(listOf(body).sublist("Supports").numParams() + 1);
     ParameterList& list = listOf(body).sublist("Supports").sublist(name);
     list.set("Surface", nodesNamed(bodies_.all()[body].name + ' ' + name, nodes));
-    const auto first = std::find_if(values.begin(), values.end(), [](double value) { return value != 0; });
-    const double base = first == values.end() ? 0 : *first;
+    const auto first =
+        std::find_if(holds.begin(), holds.end(), [](const Hold& hold) { return hold.value != 0; });
+    const double base = first == holds.end() ? 0 : first->value;
+    const bool changes = std::any_of(holds.begin(), holds.end(),
+                                     [](const Hold& hold) { return !hold.isHeld || hold.isFixed; });
     list.set(std::string(1, "XYZ"[component]), base);
     if (transform >= 0) {
       const Transform& axes = deck_.transforms[transform];
       list.set(axes.isCylindrical ? "Cylinder" : "Axes",
                Array<double>({axes.a[0], axes.a[1], axes.a[2], axes.b[0], axes.b[1], axes.b[2]}));
     }
-    for (std::size_t k = 0; base != 0 && k < values.size(); ++k)
-      supportFactors_[k] +=
-          bodies_.all()[body].name + '/' + name + " = " + valueText(values[k] / base) + ", ";
+    for (std::size_t k = 0; (base != 0 || changes) && k < holds.size(); ++k)
+      supportFactors_[k] += bodies_.all()[body].name + '/' + name + " = " +
+                            (!holds[k].isHeld   ? "off"
+                             : holds[k].isFixed ? "fixed"
+                                                : valueText(base == 0 ? 1 : holds[k].value / base)) +
+                            ", ";
   }
 }
 
@@ -160,11 +159,16 @@ void ModelMaker::addForces(std::size_t step) {
   std::map<GlobalOrdinal, Eigen::Vector3d> forces;
   for (const auto& [key, cards] : history.all())
     for (const NodeForce* card : cards) {
+      const double size = card->value * factorAt(card->amplitude, card->delay, step);
+      if (const auto tension = tensions_.find(key.first); tension != tensions_.end() && key.second == 0) {
+        tension->second[step] += size;
+        continue;
+      }
       if (bodies_.ofNode(key.first).empty())
         refuse(card->place, "*CLOAD: node " + std::to_string(key.first) +
                                 " belongs to no element; a force on it is not solved here");
       Eigen::Vector3d& force = forces.try_emplace(key.first, Eigen::Vector3d::Zero()).first->second;
-      force += card->value * factorAt(card->amplitude, card->delay, step) * axesOf(key.first).col(key.second);
+      force += size * axesOf(key.first).col(key.second);
     }
   std::map<std::pair<int, std::array<double, 3>>, Numbers> groups; // nodes with the same force
   for (const auto& [node, force] : forces)

@@ -28,12 +28,20 @@ public:
   void addEquations();
   /// Contact pairs and ties, and what changes of them with the steps.
   void addContacts();
+  /// Bolts; before equations, which join what they do not.
+  void addPretensions();
   [[nodiscard]] DeckModel take() { return std::move(model_); }
 
 private:
   using Numbers = std::vector<GlobalOrdinal>;
-  /// By node and component (0 to 2): what each step prescribes.
-  using Prescribed = std::map<std::pair<GlobalOrdinal, int>, std::vector<double>>;
+  /// What a step says of a displacement.
+  struct Hold {
+    bool isHeld = false, isFixed = false; ///< at the value; where it is
+    double value = 0;
+    auto operator<=>(const Hold& other) const = default;
+  };
+  /// By node and component (0 to 2): of each step.
+  using Prescribed = std::map<std::pair<GlobalOrdinal, int>, std::vector<Hold>>;
 
   // DeckModel.cpp
   [[nodiscard]] Teuchos::ParameterList& listOf(int body);
@@ -71,15 +79,26 @@ private:
   void addEquation(const std::string& name, const std::string& terms, double value);
 
   // ModelContacts.cpp
-  [[nodiscard]] std::vector<std::pair<GlobalOrdinal, int>> facesAt(const Surface& surface,
-                                                                   const std::string& name) const;
-  [[nodiscard]] std::set<int> bodiesAt(const std::string& surface);
+  using Face = std::pair<GlobalOrdinal, int>; ///< of an element, S1 being 1
+  [[nodiscard]] Eigen::Vector3d areaVectorOf(const Face& face) const;
+  [[nodiscard]] std::vector<Face> facesAt(const Surface& surface, const std::string& name,
+                                          const Eigen::Vector3d& against) const;
+  [[nodiscard]] std::set<int> bodiesAt(const std::string& surface, const Surface* facing);
   [[nodiscard]] double typicalSize(const std::string& surface) const;
   [[nodiscard]] bool hasNodesOf(const std::string& set, const std::string& surface) const;
   [[nodiscard]] std::vector<std::string> addPairs(const std::string& name, const std::string& dependent,
                                                   const std::string& independent, const Place& place);
   void addContactPair(const ContactPair& pair);
   void changeFriction();
+  void changePairs();
+
+  // ModelPretensions.cpp
+  /// Where a bolt is cut.
+  struct Cut {
+    int first = 0, second = 0; ///< bodies
+    std::set<GlobalOrdinal> nodes;
+  };
+  [[nodiscard]] Cut cutAt(const Pretension& pretension) const;
 
   const Deck& deck_;
   std::string mesh_;
@@ -90,6 +109,9 @@ private:
   /// Of each step the factors of loads and supports, "body/load = 1, …".
   std::vector<std::string> loadFactors_, supportFactors_;
   std::map<std::string, std::vector<std::string>> contactsOf_; ///< their names, by interactions
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> contactsBetween_; ///< by surfaces
+  std::map<GlobalOrdinal, std::vector<double>> tensions_; ///< of nodes of bolts, at each step
+  std::vector<Cut> cuts_;
 };
 
 } // namespace epafi::deck

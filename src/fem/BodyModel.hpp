@@ -33,6 +33,10 @@ public:
   [[nodiscard]] const mesh::Mesh& mesh() const { return body_.mesh; } ///< that of the body
   /// Of a piece of a mesh, what the solid names: one piece at least has to have it.
   [[nodiscard]] const std::vector<SolidBody::Need>& needs() const { return body_.needs(); }
+  /// One more load: a force in space at a node, if the mesh, or a piece of it, has the node's elements.
+  void addForce(GlobalOrdinal node, const Eigen::Vector3d& force) {
+    loads_.addForceAt(body_.mesh, node, {force[0], force[1], force[2]});
+  }
   /// Where its unknowns are.
   [[nodiscard]] const UnknownMap& unknowns() const { return unknowns_; }
   /// Unknowns a node.

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,6 +79,8 @@ struct SolidSupport {
   std::array<std::optional<double>, 3> value;
   std::optional<double> normal = std::nullopt; ///< uᵀn, n the outward normal; the surface slides along itself
   std::optional<LocalAxes> axes = std::nullopt; ///< those of the components; nothing: those of space
+  /// Of its nodes, in space: what the support holds them at, instead of its values.
+  std::optional<std::map<GlobalOrdinal, Vector3>> displacements = std::nullopt;
 };
 
 /// A load; loads add up.

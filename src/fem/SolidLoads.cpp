@@ -84,8 +84,17 @@ SolidLoads::SolidLoads(const SolidBody& body, const SolidRegions& regions) : isH
       bodyForces_.push_back(
           {SolidDomain(body, "load '" + load.name + "'", load.where, load.box, !load.wholeElements), &load});
   }
+  sortForces();
+}
+
+void SolidLoads::sortForces() {
   std::stable_sort(forces_.begin(), forces_.end(),
                    [](const NodalForce& a, const NodalForce& b) { return a.element < b.element; });
+}
+
+void SolidLoads::addForceAt(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force) {
+  enterForce(mesh, node, force);
+  sortForces();
 }
 
 void SolidLoads::addGridForce(const SolidBody& body, const SolidLoad& load) {
@@ -140,14 +149,16 @@ void SolidLoads::addTemperature(const SolidBody& body, const SolidLoad& load) {
 void SolidLoads::addPoint(const SolidBody& body, const SolidLoad& load) {
   if (!load.where.empty())
     for (const GlobalOrdinal node : body.nodesOf("load '" + load.name + "'", load.where))
-      addForceAt(body.mesh, node, load.value);
+      enterForce(body.mesh, node, load.value);
   else if (const std::optional<GlobalOrdinal> node = nodeAt(body, load))
-    addForceAt(body.mesh, *node, load.value);
+    enterForce(body.mesh, *node, load.value);
 }
 
-void SolidLoads::addForceAt(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force) {
+void SolidLoads::enterForce(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force) {
   std::vector<GlobalOrdinal> elements;
   mesh.nodeElements(node, elements);
+  if (elements.empty()) // of a piece of a mesh
+    return;
   forces_.push_back({*std::min_element(elements.begin(), elements.end()), node, force});
 }
 

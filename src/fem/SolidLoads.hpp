@@ -26,6 +26,9 @@ public:
   /// Change of temperature at the nodes of an element; empty of a body of which no temperature changes.
   void temperatureChange(const mesh::Mesh& mesh, GlobalOrdinal element, std::vector<double>& change) const;
 
+  /// One more force at a node, if the mesh, or a piece of it, has the node's elements.
+  void addForceAt(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force);
+
 private:
   /// A force at a node, carried by one of its elements.
   struct NodalForce {
@@ -49,7 +52,8 @@ private:
   void addSurface(const SolidBody& body, const SolidRegions& regions, const SolidLoad& load);
   void addTemperature(const SolidBody& body, const SolidLoad& load);
   void addPoint(const SolidBody& body, const SolidLoad& load);
-  void addForceAt(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force);
+  void enterForce(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force);
+  void sortForces();
   void addGridForces(const SolidBody& body, const SolidRegions& regions,
                      std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
   void addBodyForces(const SolidBody& body, const SolidRegions& regions,

@@ -98,12 +98,16 @@ std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBod
   std::vector<Condition> conditions;
   for (const SolidSupport& support : body.solid.supports) {
     const std::string user = "support '" + support.name + "'";
+    const auto valueAt = [&](GlobalOrdinal node, const Vector3d& direction, double value) {
+      return support.displacements ? direction.dot(Vector3d(support.displacements->at(node).data())) : value;
+    };
     for (const GlobalOrdinal node : body.nodesOf(user, support.surface)) {
       const Eigen::Matrix3d axes = support.axes ? axesAt(*support.axes, body.mesh.point(node))
                                                 : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
       for (int c = 0; c < body.components(); ++c)
         if (const auto& value = support.value[c])
-          conditions.push_back({node, axes.col(c), *value, support.axes ? -1 : c, &support});
+          conditions.push_back(
+              {node, axes.col(c), valueAt(node, axes.col(c), *value), support.axes ? -1 : c, &support});
     }
     if (!support.normal)
       continue;
@@ -112,7 +116,7 @@ std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBod
                          "' holds the displacement along the normal, which a membrane does not have; give "
                          "its value instead");
     for (const NodeNormal& at : supportNormals(body.mesh, body.surfaceOf(user, support.surface)))
-      conditions.push_back({at.node, at.normal, *support.normal, -1, &support});
+      conditions.push_back({at.node, at.normal, valueAt(at.node, at.normal, *support.normal), -1, &support});
   }
   if (body.solid.physics == Physics::axisymmetric && body.solid.holdsAxis) {
     static const SolidSupport axis{"axis of revolution", "", {}};

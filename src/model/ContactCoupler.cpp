@@ -1,5 +1,6 @@
 #include "epafi/model/ContactCoupler.hpp"
 
+#include "epafi/base/Errors.hpp"
 #include "epafi/contact/ContactSearch.hpp"
 #include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
@@ -10,6 +11,7 @@
 #include "epafi/model/ContactSurfaces.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -56,6 +58,15 @@ Coupler::Coupler(const ContactGroup& group, const std::vector<BodyLayout>& bodie
       surfaceOf(terms, layoutOf(second_), terms.secondSurface); // that it is there
     surfaceOf(terms, layoutOf(first_), terms.firstSurface);
   }
+  second_.isTurnedOver = isTied() && std::isfinite(terms_.distance) && faceOneWay();
+}
+
+/// Whether both surfaces look into the same direction, as where a body stands in another one.
+bool Coupler::faceOneWay() const {
+  const Eigen::Vector3d own = areaVectorOf(*layoutOf(first_).mesh, united(first_).surface),
+                        other = areaVectorOf(*layoutOf(second_).mesh, united(second_).surface);
+  constexpr double clearly = 0.7;
+  return own.dot(other) > clearly * own.norm() * other.norm();
 }
 
 ContactLayout Coupler::layout() const {
@@ -103,12 +114,27 @@ std::vector<double> Coupler::thicknesses(const Side& first, const mesh::Surface&
   return own;
 }
 
+/// Those whose gaps count as none. \param first  the side that is to have the rows
+std::function<bool(GlobalOrdinal)> Coupler::adjustedNodes(const Side& first) const {
+  const mesh::Mesh& mesh = *layoutOf(first).mesh;
+  const std::vector<std::string> names = mesh.nodeSetNames();
+  if (first.body != terms_.first || std::find(names.begin(), names.end(), terms_.adjustNodes) == names.end())
+    throw InputError("contact '" + terms_.name + "': \"" + terms_.adjustNodes +
+                     "\" is no set of nodes of the side that carries the multipliers, '" +
+                     layoutOf(first).name + "'; name one there, or adjust gaps up to a length");
+  return [nodes = mesh.nodeSet(terms_.adjustNodes)](GlobalOrdinal node) {
+    return std::binary_search(nodes.begin(), nodes.end(), node);
+  };
+}
+
 /// \param first  the side that is to have the rows
 contact::ContactTerms Coupler::asked(const Side& first, const contact::UnitedSurface& surface) const {
   contact::ContactTerms asked{
       name_,      first.surfaces.front(), dimensionOf(layoutOf(first).mesh->cellType()), components_,
       terms_.gap, terms_.distance};
   asked.adjust = terms_.adjust;
+  if (!terms_.adjustNodes.empty())
+    asked.isAdjusted = adjustedNodes(first);
   asked.isOfRevolution = supported_.areOfRevolution;
   asked.givesWay = terms_.stiffness > 0;
   asked.sense = first.body == first_.body ? 1 : -1;

@@ -35,23 +35,29 @@ private:
   struct Side {
     int body;
     std::vector<std::string> surfaces;
+    bool isTurnedOver = false; ///< seen from inside the body
   };
 
   [[nodiscard]] const BodyLayout& layoutOf(const Side& side) const { return bodies_[side.body]; }
   [[nodiscard]] int orderOf(const Side& side) const { return mesh::orderOf(layoutOf(side).mesh->cellType()); }
   [[nodiscard]] contact::UnitedSurface united(const Side& side) const {
-    return contact::unite(*layoutOf(side).mesh, side.surfaces);
+    contact::UnitedSurface result = contact::unite(*layoutOf(side).mesh, side.surfaces);
+    if (side.isTurnedOver)
+      contact::turnOver(result.surface);
+    return result;
   }
   /// Whether nodes of a side are tied to the other one; empty: none is, or this is a tie itself.
   [[nodiscard]] std::function<bool(GlobalOrdinal)> tiedNodes(const Side& side, const Side& other) const;
   [[nodiscard]] contact::UnitedSurface untied(const Side& side, const Side& other) const;
   [[nodiscard]] bool isHeld(const Side& side) const;
+  [[nodiscard]] bool faceOneWay() const;
   [[nodiscard]] bool isTied() const { return terms_.kind == scene::SurfaceContact::Kind::tied; }
   [[nodiscard]] Eigen::Matrix3d axesOf(const Side& side, const mesh::Surface& surface) const {
     return supported_.axes ? supported_.axes(side.body, surface) : Eigen::Matrix3d::Identity();
   }
 
   [[nodiscard]] std::vector<double> thicknesses(const Side& first, const mesh::Surface& surface) const;
+  [[nodiscard]] std::function<bool(GlobalOrdinal)> adjustedNodes(const Side& first) const;
   [[nodiscard]] contact::ContactTerms asked(const Side& first, const contact::UnitedSurface& surface) const;
   [[nodiscard]] contact::ContactLayout finish(contact::ContactLayout layout, const Side& first,
                                               const Side& second, std::string means) const;

@@ -7,11 +7,24 @@
 
 namespace epafi::model {
 
+GlobalOrdinal firstEquation(const std::vector<contact::ContactLayout>& ties,
+                            const decomposition::DecomposedProblem& problem) {
+  GlobalOrdinal first = problem.firstTie();
+  for (const contact::ContactLayout& tie : ties)
+    first += tie.hasOwnRows ? tie.numRows() : 0;
+  return first;
+}
+
 RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<contact::ContactLayout>& contacts,
+                               const std::vector<contact::ContactLayout>& ties,
+                               const std::vector<contact::Equation>& equations,
                                const decomposition::DecomposedProblem& problem) {
-  if (std::none_of(scene.contacts.begin(), scene.contacts.end(), [](const scene::SurfaceContact& contact) {
-        return contact.stiffness > 0 || contact.stickSlope > 0;
-      }))
+  if (std::none_of(scene.contacts.begin(), scene.contacts.end(),
+                   [](const scene::SurfaceContact& contact) {
+                     return contact.stiffness > 0 || contact.stickSlope > 0;
+                   }) &&
+      std::none_of(equations.begin(), equations.end(),
+                   [](const contact::Equation& equation) { return equation.stiffness > 0; }))
     return Teuchos::null;
   const RCP<Vector> compliance = rcp(new Vector(problem.multiplierMap)); // stiffness first
   const auto values = compliance->getDataNonConst();
@@ -30,6 +43,10 @@ RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<cont
         add(problem.numInequalities + numTangents * (contact.firstFriction + offset) + k, terms.stickSlope);
     }
   }
+  GlobalOrdinal row = firstEquation(ties, problem);
+  for (const contact::Equation& equation : equations)
+    if (const LocalOrdinal own = problem.multiplierMap->getLocalElement(row++); own >= 0)
+      values[own] = equation.stiffness;
   for (double& value : values)
     value = value > 0 ? 1 / value : 0;
   return compliance;

@@ -140,8 +140,8 @@ void Groups::requireNew(const Member& old, const Member& added) const {
     return contains(whole.first, part.first) && contains(whole.second, part.second);
   };
   if (old.terms.kind == added.terms.kind && old.terms.gap == added.terms.gap &&
-      old.terms.adjust == added.terms.adjust && old.terms.distance == added.terms.distance &&
-      (isIn(old, added) || isIn(added, old))) {
+      old.terms.adjust == added.terms.adjust && old.terms.adjustNodes == added.terms.adjustNodes &&
+      old.terms.distance == added.terms.distance && (isIn(old, added) || isIn(added, old))) {
     const bool isAddedLess = isIn(old, added);
     throw InputError(
         "contact '" + (isAddedLess ? added : old).terms.name + "' says nothing that contact '" +
@@ -163,8 +163,9 @@ bool Groups::bringsFacets(std::span<const Member> members, const Member& added, 
 /// bodies in the same order.
 bool Groups::joins(const std::vector<Member>& members, const Member& added) const {
   const Terms &its = members.front().terms, &own = added.terms;
-  if (its.kind != own.kind || its.gap != own.gap || its.adjust != own.adjust ||
-      its.distance != own.distance || its.coupling != own.coupling || its.multipliers != own.multipliers)
+  if (its.preload || own.preload || its.kind != own.kind || its.gap != own.gap || its.adjust != own.adjust ||
+      its.adjustNodes != own.adjustNodes || its.distance != own.distance || its.coupling != own.coupling ||
+      its.multipliers != own.multipliers)
     return false;
   const auto orderOf = [&](int body) { return mesh::orderOf(bodies_[body].mesh->cellType()); };
   const bool mayCarrySecond =
@@ -253,7 +254,8 @@ std::vector<ContactGroup> Groups::take() {
 std::vector<ContactGroup> contactGroups(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) {
   Groups groups(scene, bodies);
   for (int number = 0; number < std::ssize(scene.contacts); ++number)
-    groups.add(number);
+    if (scene.contacts[number].isOn)
+      groups.add(number);
   return groups.take();
 }
 

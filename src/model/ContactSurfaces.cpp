@@ -107,6 +107,16 @@ mesh::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& 
   return body.mesh->surface(surface);
 }
 
+Eigen::Vector3d areaVectorOf(const mesh::Mesh& mesh, const mesh::Surface& surface) {
+  Eigen::Vector3d sum(0, 0, 0);
+  std::vector<Point> points;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    mesh.pointsAt(surface.facet(f), points);
+    sum += mesh::areaVector(surface.facetType, points);
+  }
+  return sum;
+}
+
 std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
                        scene::SurfaceContact& terms) {
   const auto support = [&](int body, const std::string& surface) { // what one holds fixes no pressure

@@ -7,6 +7,8 @@
 #include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
 
+#include <Eigen/Core>
+
 #include <string>
 #include <vector>
 
@@ -19,6 +21,9 @@ mesh::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& 
 
 /// Mean distance of a surface's nodes.
 double spacingOf(const mesh::Mesh& mesh, const mesh::Surface& surface);
+
+/// ∫n over a surface.
+Eigen::Vector3d areaVectorOf(const mesh::Mesh& mesh, const mesh::Surface& surface);
 
 /// Decides which surface is to carry multipliers: one that no support holds, then one that no other contact
 /// has, then one that is finer by half where they are near each other, then one of whose facets the other

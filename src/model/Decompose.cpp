@@ -191,6 +191,9 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
     SceneContacts all = layoutContacts(scene, result.bodies, supportedNodes(models));
     result.contacts = std::move(all.contacts);
     result.ties = std::move(all.ties);
+    result.equations = equationsOf(scene, models);
+    for (const contact::ContactLayout& section : all.sections)
+      result.sections.push_back(addSection(scene, section, models, result.equations));
   });
   decomposition::UnassembledProblem problem(comm, models.front()->components(),
                                             describeBodies(result.bodies, models), placesOf(models));
@@ -211,13 +214,13 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   if (std::any_of(result.contacts.begin(), result.contacts.end(),
                   [](const contact::ContactLayout& each) { return each.firstFriction >= 0; }))
     problem.setFriction(contact::frictionRows(result.contacts, unknowns, comm));
-  collectively(*comm, [&] { result.equations = equationsOf(scene, models); });
   if (!result.ties.empty() || !result.equations.empty())
     problem.setTies(contact::contactMatrix(result.ties, unknowns, comm, result.equations));
   problem.complete();
   result.data = problem.data();
   setFrictionData(scene, result.contacts, problem.problem(), result.data);
-  problem.setCompliance(complianceOf(scene, result.contacts, problem.problem()));
+  problem.setCompliance(
+      complianceOf(scene, result.contacts, result.ties, result.equations, problem.problem()));
   result.problem = problem.take();
   return result;
 }

@@ -7,6 +7,7 @@
 #include "epafi/contact/ContactMatrix.hpp"
 #include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/model/BodyLayout.hpp"
+#include "epafi/model/PreloadSections.hpp"
 #include "epafi/scene/Scene.hpp"
 
 #include <string>
@@ -21,6 +22,7 @@ struct Decomposition {
   std::vector<contact::ContactLayout> contacts;
   std::vector<contact::ContactLayout> ties;
   std::vector<contact::Equation> equations; ///< their rows follow those of ties
+  std::vector<PreloadSection> sections;     ///< of bolts; their rows are among equations
   decomposition::DecomposedProblem problem;
   decomposition::ProblemData data;
 };

@@ -284,6 +284,11 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
   }
   numberRows(groups, all.contacts);
   numberFriction(scene, all.contacts);
+  for (ContactLayout& tie : all.ties)
+    if (scene.contacts[tie.number].preload)
+      all.sections.push_back(std::move(tie));
+  std::erase_if(all.ties,
+                [&](const ContactLayout& tie) { return scene.contacts[tie.number].preload.has_value(); });
   numberRows(groups, all.ties);
   return all;
 }

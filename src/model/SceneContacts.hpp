@@ -16,9 +16,10 @@
 
 namespace epafi::model {
 
-/// The contacts of a scene, and its tied joints, whose rows are numbered for themselves.
+/// The contacts of a scene, and its tied joints, whose rows are numbered for themselves; those with a preload
+/// apart, without numbers.
 struct SceneContacts {
-  std::vector<contact::ContactLayout> contacts, ties;
+  std::vector<contact::ContactLayout> contacts, ties, sections;
 };
 
 /// What contacts have to know of supports and bodies; empty functions: nothing.

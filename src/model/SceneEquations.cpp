@@ -65,12 +65,13 @@ contact::Equation scaled(contact::Equation equation) {
   for (contact::Equation::Term& term : equation.terms)
     term.direction /= largest;
   equation.value /= largest;
+  equation.stiffness *= largest * largest;
   return equation;
 }
 
-/// Whether supports prescribe all of an equation. \throws SolvabilityError if they contradict it
-bool isFixed(const contact::Equation& equation, const std::string& name,
-             const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
+} // namespace
+
+bool isFixed(const contact::Equation& equation, const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
   double sum = -equation.value, scale = std::abs(equation.value);
   for (const contact::Equation::Term& term : equation.terms) {
     const double length = term.direction.norm();
@@ -80,21 +81,19 @@ bool isFixed(const contact::Equation& equation, const std::string& name,
     sum += length * *held;
     scale = std::max(scale, std::abs(length * *held));
   }
-  if (std::abs(sum) > 1e-10 * scale)
+  if (equation.stiffness == 0 && std::abs(sum) > 1e-10 * scale)
     throw SolvabilityError(SolvabilityError::Kind::noSolution,
-                           "supports hold all displacements of the equation " + inQuotes(name) +
+                           "supports hold all displacements of the equation " + inQuotes(equation.name) +
                                ", at values that miss it by " + text(sum) + "; release one of them");
   return true;
 }
-
-} // namespace
 
 std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
                                            const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
   std::vector<contact::Equation> equations;
   EquationNodes nodes(scene, models);
   for (const scene::Equation& each : scene.equations) {
-    contact::Equation equation{{}, each.value, each.name};
+    contact::Equation equation{{}, each.value, each.name, each.stiffness};
     for (const scene::Equation::Term& term : each.terms) {
       const GlobalOrdinal node = nodes.of(each, term);
       const Eigen::Vector3d share = term.factor * Eigen::Vector3d::Unit(term.component);
@@ -109,7 +108,7 @@ std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
     std::erase_if(equation.terms, [](const auto& term) { return term.direction.isZero(0); });
     if (equation.terms.empty())
       throw InputError("the terms of the equation " + inQuotes(each.name) + " cancel; remove it");
-    if (!isFixed(equation, each.name, models))
+    if (!isFixed(equation, models))
       equations.push_back(scaled(std::move(equation)));
   }
   return equations;

@@ -17,4 +17,8 @@ namespace epafi::model {
 std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
                                            const std::vector<std::unique_ptr<fem::BodyModel>>& models);
 
+/// Whether supports prescribe all of an equation. \throws SolvabilityError if they contradict one that is no
+/// spring
+bool isFixed(const contact::Equation& equation, const std::vector<std::unique_ptr<fem::BodyModel>>& models);
+
 } // namespace epafi::model

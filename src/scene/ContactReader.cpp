@@ -1,10 +1,13 @@
 #include "epafi/scene/ContactReader.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace epafi::scene {
@@ -142,13 +145,16 @@ void readCoupling(const ListReader& entry, SurfaceContact& pair) {
   }
   if (pair.kind == SurfaceContact::Kind::tied)
     entry.refuseGiven({"Gap"}, "a tied joint keeps the gap that there is");
+  pair.adjustNodes = entry.word("Adjust Nodes");
   const std::string &coupling = entry.word("Coupling"), &side = entry.word("Multipliers");
   pair.coupling = coupling == "nodes"    ? Coupling::nodes
                   : coupling == "mortar" ? Coupling::mortar
                                          : Coupling::automatic;
   if (pair.coupling == Coupling::nodes)
     entry.refuseGiven({"Multipliers"}, "pairs of nodes have one each");
-  pair.multipliers = side == "first" ? Side::first : side == "second" ? Side::second : Side::automatic;
+  pair.multipliers = side == "first" || !pair.adjustNodes.empty() ? Side::first
+                     : side == "second"                           ? Side::second
+                                                                  : Side::automatic;
 }
 
 /// What hinders the surfaces from slipping, and by what they give way.
@@ -157,9 +163,10 @@ void readFriction(const ListReader& entry, const Body& body, SurfaceContact& pai
   pair.frictionBound = entry.real("Friction Bound");
   pair.stiffness = entry.real("Stiffness");
   pair.stickSlope = entry.real("Stick Slope");
-  if (entry.has("Adjust") &&
-      (body.physics == fem::Physics::membrane || pair.kind == SurfaceContact::Kind::tied))
-    entry.refuseValue("Adjust", "membranes and tied joints have no gap that their shapes leave");
+  for (const char* const name : {"Adjust", "Adjust Nodes"})
+    if (entry.has(name) &&
+        (body.physics == fem::Physics::membrane || pair.kind == SurfaceContact::Kind::tied))
+      entry.refuseValue(name, "membranes and tied joints have no gap that their shapes leave");
   for (const char* const name : {"Stiffness", "Stick Slope"}) {
     if (entry.real(name) > 0 && body.physics == fem::Physics::membrane)
       entry.refuseValue(name, "membranes do not give way where they touch");
@@ -177,6 +184,21 @@ void readFriction(const ListReader& entry, const Body& body, SurfaceContact& pai
     entry.refuseValue(given, "a tied joint does not slip; remove it, or make the pair a contact");
   if (body.physics == fem::Physics::membrane)
     entry.refuseValue(given, "membranes move along z alone and cannot slip; friction is for elastic bodies");
+}
+
+/// What a joint is tightened by, if it is a section of a bolt.
+void readPreload(const ListReader& entry, const Body& body, SurfaceContact& pair) {
+  if (!entry.hasEntries("Preload")) {
+    entry.refuseGiven({"Preload Direction"}, "there is no Preload");
+    return;
+  }
+  if (pair.kind != SurfaceContact::Kind::tied || body.physics == fem::Physics::membrane)
+    entry.refuseValue("Preload", "it is for tied joints of elastic bodies, the parts of a bolt");
+  pair.preload = preloadOf(entry.word("Preload"));
+  if (!pair.preload || pair.preload->kind == Preload::Kind::locked)
+    entry.refuseValue("Preload", "it must be \"force\" or \"shortening\" and a number");
+  if (entry.hasEntries("Preload Direction"))
+    pair.preloadDirection = direction(entry, "Preload Direction", dimensionOf(body.physics));
 }
 
 void requireSoundEdges(const ListReader& entry, const Scene& scene) {
@@ -200,6 +222,20 @@ void requireUse(const ListReader& contacts, const std::vector<NamedObstacle>& ob
 }
 
 } // namespace
+
+std::optional<Preload> preloadOf(const std::string& text) {
+  using Kind = Preload::Kind;
+  if (text == "locked")
+    return Preload{Kind::locked};
+  for (const auto& [word, kind] : {std::pair("force ", Kind::force), {"shortening ", Kind::shortening}})
+    if (text.starts_with(word))
+      try {
+        return Preload{kind, parsedReal(text.substr(std::string_view(word).size()))};
+      } catch (const InputError&) {
+        return std::nullopt;
+      }
+  return std::nullopt;
+}
 
 void readContacts(const ListReader& list, const ListReader& rigid, Scene& scene) {
   std::vector<NamedObstacle> obstacles;
@@ -225,6 +261,7 @@ void readContacts(const ListReader& list, const ListReader& rigid, Scene& scene)
       readSurfaces(entry, scene.bodies, obstacles, pair);
     readCoupling(entry, pair);
     readFriction(entry, scene.bodies[pair.first], pair);
+    readPreload(entry, scene.bodies[pair.first], pair);
     pair.gap = entry.real("Gap");
     scene.contacts.push_back(pair);
     if (alongEdges)

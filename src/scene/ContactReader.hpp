@@ -5,6 +5,9 @@
 #include "epafi/scene/ListReader.hpp"
 #include "epafi/scene/Scene.hpp"
 
+#include <optional>
+#include <string>
+
 namespace epafi::scene {
 
 /// Fills the contacts of a scene whose bodies are there: pairs of membranes on rectangles meet along edges,
@@ -17,5 +20,11 @@ namespace epafi::scene {
 /// elements; of all others, if surfaces are not named. Whether the surfaces are in the meshes is not looked
 /// at here.
 void readContacts(const ListReader& list, const ListReader& rigid, Scene& scene);
+
+/// What a bolt is tightened by: "force 100", "shortening 0.1", "locked"; nothing of another text.
+std::optional<Preload> preloadOf(const std::string& text);
+
+/// In messages: the texts that preloadOf takes.
+constexpr const char* preloadForms = "force 100, shortening 0.1 or locked";
 
 } // namespace epafi::scene

@@ -43,7 +43,7 @@ Equation::Term termOf(const ListReader& entry, const std::string& text, const Sc
 void readEquations(const ListReader& list, Scene& scene) {
   for (const std::string& name : list.names()) {
     const ListReader entry = list.inside(name);
-    Equation equation{name, {}, entry.real("Value")};
+    Equation equation{name, {}, entry.real("Value"), entry.real("Stiffness")};
     std::istringstream terms(entry.word("Terms"));
     for (std::string text; std::getline(terms, text, ',');)
       if (!trimmed(text).empty())

@@ -6,6 +6,7 @@
 #include "epafi/scene/Body.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,21 @@ struct Obstacle {
   Vector3 normal{0, 0, 1}; ///< of the plane towards the body, or along the axis, of length 1
   double radius = 1;       ///< of the sphere or cylinder
   bool isHollow = false;   ///< a bore or a cup, with the body inside
+};
+
+/// What tightens a bolt at a section of its shank, whose two sides a tied joint holds together: all of one
+/// side is moved by the same length against all of the other, along the section's normal.
+struct Preload {
+  enum class Kind {
+    force,      ///< the tension is given, and how far the sides move is found
+    shortening, ///< the length is given that is taken out of the bolt
+    locked      ///< the length is that which the load step before has come to
+  };
+  Kind kind = Kind::force;
+  double value = 0; ///< force or length; not of Kind::locked
+
+  /// Whether the length is known, and the force is not.
+  [[nodiscard]] bool holdsLength() const { return kind != Kind::force; }
 };
 
 /// Contact of a body's surface with another body's or with an obstacle, or a joint of two bodies.
@@ -40,6 +56,7 @@ struct SurfaceContact {
   double gap = 0; ///< added to the gap that geometry leaves (membranes: all there is); negative: penetration
   /// Gaps of geometry up to this, overlaps too, count as none.
   double adjust = -std::numeric_limits<double>::infinity();
+  std::string adjustNodes{}; ///< set of nodes of the first body of which gaps of geometry count as none, too
   /// Nodes farther from the other side than this get no inequality: they cannot meet.
   double distance = std::numeric_limits<double>::infinity();
   Kind kind = Kind::contact;
@@ -49,11 +66,15 @@ struct SurfaceContact {
   double frictionBound = 0; ///< Tresca's: they are at most this, force per area
   double stiffness = 0;     ///< pressure over overclosure; 0: surfaces do not give way
   double stickSlope = 0;    ///< tangential traction over what sticking surfaces shift; 0: they do not
+  bool isOn = true;         ///< false: it is as if it were not there
+  std::optional<Preload> preload = std::nullopt; ///< of a tied joint
+  /// The section's normal, out of the first body, of any length; nothing: the mean one of its surface.
+  std::optional<Vector3> preloadDirection = std::nullopt;
 
   [[nodiscard]] bool hasFriction() const { return friction > 0 || frictionBound > 0; }
 };
 
-/// A linear equation between displacements of nodes: Σ factor · component = value.
+/// A linear equation between displacements of nodes, Σ factor · component = value, or a spring.
 struct Equation {
   struct Term {
     double factor = 1;
@@ -64,6 +85,7 @@ struct Equation {
   std::string name;
   std::vector<Term> terms;
   double value = 0;
+  double stiffness = 0; ///< of a spring, whose force is so many times what the sum is off; 0: it is not off
 };
 
 struct Scene {

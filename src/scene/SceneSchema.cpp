@@ -278,6 +278,10 @@ void describePair(ParameterList& contact) {
           "before Gap is "
           "added; without it all count as they are.",
           0.0);
+  pair.set(
+      "Adjust Nodes", "",
+      "A set of nodes of the first body, which then carries the multipliers: the gaps that shapes leave at "
+      "them count as none, whatever they are.");
   addReal(pair, "Stiffness", 0.0,
           "Elastic bodies: pressure over overclosure, force per volume, of surfaces that give way; 0: they "
           "do not.",
@@ -287,6 +291,14 @@ void describePair(ParameterList& contact) {
           "they do not "
           "shift.",
           0.0);
+  pair.set(
+      "Preload", "",
+      "Tied joint that is a section of a bolt's shank: \"force 100\", its tension, or \"shortening 0.1\", "
+      "the length that is taken out of it along the section's normal.");
+  addArray(pair, "Preload Direction", Array<double>(),
+           "The section's normal, out of the first body, of any length; if not given, the mean one of its "
+           "surface.",
+           "");
   addReal(pair, "Distance", 0.0,
           "Nodes that are farther than this from the other side cannot meet it and get no inequality; 0: no "
           "limit. Not of membranes on rectangles.",
@@ -340,10 +352,17 @@ void describeStep(ParameterList& steps) {
                     "What changes in a step; what it does not name stays as the step before had "
                     "it, or the scene.");
   step.set("Loads", "", "By what loads are multiplied: \"body/load = factor\", several parted by commas.");
-  step.set("Supports", "",
-           "By what the displacements are multiplied that supports prescribe: \"body/support = factor\", …");
+  step.set(
+      "Supports", "",
+      "By what the displacements are multiplied that supports prescribe: \"body/support = factor\", …; off: "
+      "it does not hold; fixed: it holds its nodes where the step before has moved them.");
+  step.set("Contacts", "", "Whether contacts and tied joints count: \"contact = off\", \"contact = on\", …");
   step.set("Gaps", "", "Gap of contacts: \"contact = gap\", …");
   step.set("Friction", "", "Coefficient of contacts that have Friction: \"contact = coefficient\", …");
+  step.set(
+      "Preload", "",
+      "Of tied joints that have a Preload: \"joint = force 100\", \"joint = shortening 0.1\", or \"joint = "
+      "locked\" at the length of the step before.");
 }
 
 ParameterList sceneSchema() {
@@ -366,6 +385,11 @@ ParameterList sceneSchema() {
       "body's mesh that has one node, and X, Y or Z.");
   setRequired(equation, {"Terms"});
   addReal(equation, "Value", 0.0, "What the sum is.");
+  addReal(
+      equation, "Stiffness", 0.0,
+      "Of a spring instead, whose force is so many times the difference of the sum and Value: of one term "
+      "to the ground, of two between points. 0: the sum is Value.",
+      0.0);
   describeStep(
       list.sublist("Steps", false,
                    "Load steps, in their order; without any there is one, with all loads. What friction "

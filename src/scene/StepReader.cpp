@@ -4,6 +4,7 @@
 #include "epafi/base/ParameterValue.hpp"
 #include "epafi/base/Parameters.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/scene/ContactReader.hpp"
 #include "epafi/scene/ListReader.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
@@ -13,9 +14,14 @@
 namespace epafi::scene {
 namespace {
 
-/// The entries "name = number" of a parameter, parted by commas.
-std::vector<std::pair<std::string, double>> entriesOf(const ListReader& step, const std::string& parameter) {
-  std::vector<std::pair<std::string, double>> entries;
+/// "name = value", of a parameter.
+struct Entry {
+  std::string name, value, text;
+};
+
+/// The entries of a parameter, parted by commas.
+std::vector<Entry> entriesOf(const ListReader& step, const std::string& parameter) {
+  std::vector<Entry> entries;
   const std::string& text = step.word(parameter);
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -24,18 +30,27 @@ std::vector<std::pair<std::string, double>> entriesOf(const ListReader& step, co
     if (entry.empty())
       continue;
     const std::size_t equals = entry.rfind('=');
-    double value = 0;
-    try {
-      value = parsedReal(equals == std::string::npos ? "" : entry.substr(equals + 1));
-    } catch (const InputError&) {
-      step.refuseValue(parameter, "\"" + entry + "\" is not of the form name = number");
-    }
     const std::string name = trimmed(entry.substr(0, equals));
-    if (std::any_of(entries.begin(), entries.end(), [&](const auto& other) { return other.first == name; }))
+    if (name.empty())
+      step.refuseValue(parameter, "\"" + entry + "\" is not of the form name = value");
+    if (std::any_of(entries.begin(), entries.end(), [&](const Entry& other) { return other.name == name; }))
       step.refuseValue(parameter, "\"" + name + "\" is named twice");
-    entries.emplace_back(name, value);
+    entries.push_back({name, equals == std::string::npos ? "" : trimmed(entry.substr(equals + 1)), entry});
   }
   return entries;
+}
+
+[[noreturn]] void refuseForm(const ListReader& step, const std::string& parameter, const Entry& entry,
+                             const std::string& values) {
+  step.refuseValue(parameter, "\"" + entry.text + "\" is not of the form name = " + values);
+}
+
+double numberIn(const ListReader& step, const std::string& parameter, const Entry& entry) {
+  try {
+    return parsedReal(entry.value);
+  } catch (const InputError&) {
+    refuseForm(step, parameter, entry, "number");
+  }
 }
 
 [[noreturn]] void refuseName(const ListReader& step, const std::string& parameter, const std::string& name,
@@ -50,10 +65,11 @@ std::vector<std::pair<std::string, double>> entriesOf(const ListReader& step, co
                                                    : "there are " + all));
 }
 
-/// Factors of what bodies have, named "body/what". \param of  the loads or supports of a body
-template <class Of>
-std::map<Step::Place, double> factorsOf(const ListReader& step, const std::string& parameter,
-                                        const Scene& scene, const Of& of) {
+/// action(entry, place) for the entries about what bodies have, named "body/what".
+/// \param of  the loads or supports of a body
+template <class Of, class Action>
+void forEachPlace(const ListReader& step, const std::string& parameter, const Scene& scene, const Of& of,
+                  const Action& action) {
   std::map<std::string, Step::Place> places;
   std::vector<std::string> names;
   for (int body = 0; body < std::ssize(scene.bodies); ++body)
@@ -61,49 +77,97 @@ std::map<Step::Place, double> factorsOf(const ListReader& step, const std::strin
       names.push_back(scene.bodies[body].name + '/' + of(scene.bodies[body])[k].name);
       places[names.back()] = {body, k};
     }
-  std::map<Step::Place, double> factors;
-  for (const auto& [name, factor] : entriesOf(step, parameter)) {
-    const auto place = places.find(name);
+  for (const Entry& entry : entriesOf(step, parameter)) {
+    const auto place = places.find(entry.name);
     if (place == places.end())
-      refuseName(step, parameter, name, names);
-    factors[place->second] = factor;
+      refuseName(step, parameter, entry.name, names);
+    action(entry, place->second);
   }
-  return factors;
 }
 
-/// Numbers of contacts, by their places in the scene.
-std::map<int, double> ofContacts(const ListReader& step, const std::string& parameter, const Scene& scene) {
+/// action(entry, place in the scene) for the entries about contacts.
+template <class Action>
+void forEachContact(const ListReader& step, const std::string& parameter, const Scene& scene,
+                    const Action& action) {
   std::vector<std::string> names;
   for (const SurfaceContact& contact : scene.contacts)
     names.push_back(contact.name);
-  std::map<int, double> numbers;
-  for (const auto& [name, number] : entriesOf(step, parameter)) {
-    const auto place = std::find(names.begin(), names.end(), name);
+  for (const Entry& entry : entriesOf(step, parameter)) {
+    const auto place = std::find(names.begin(), names.end(), entry.name);
     if (place == names.end())
-      refuseName(step, parameter, name, names);
-    numbers[static_cast<int>(place - names.begin())] = number;
+      refuseName(step, parameter, entry.name, names);
+    action(entry, static_cast<int>(place - names.begin()));
   }
-  return numbers;
 }
 
-std::map<int, double> gapsOf(const ListReader& step, const Scene& scene) {
-  std::map<int, double> gaps = ofContacts(step, "Gaps", scene);
-  for (const auto& [place, gap] : gaps)
+void readLoads(const ListReader& list, const Scene& scene, Step& step) {
+  forEachPlace(
+      list, "Loads", scene, [](const Body& body) -> auto& { return body.loads; },
+      [&](const Entry& entry, const Step::Place& place) {
+        step.loads[place] = numberIn(list, "Loads", entry);
+      });
+}
+
+/// \param isFirst  whether no step is before this one
+void readSupports(const ListReader& list, const Scene& scene, bool isFirst, Step& step) {
+  forEachPlace(
+      list, "Supports", scene, [](const Body& body) -> auto& { return body.supports; },
+      [&](const Entry& entry, const Step::Place& place) {
+        step.states[place] = entry.value == "off"     ? SupportState::off
+                             : entry.value == "fixed" ? SupportState::fixed
+                                                      : SupportState::on;
+        if (entry.value == "fixed" && isFirst)
+          list.refuseValue("Supports", "\"" + entry.name + "\" cannot be fixed where no step has moved it");
+        if (step.states[place] == SupportState::on)
+          step.supports[place] = numberIn(list, "Supports", entry);
+      });
+}
+
+/// \param before  the scene at the step before
+void readContactStates(const ListReader& list, const Scene& before, bool isFirst, Step& step) {
+  forEachContact(list, "Contacts", before, [&](const Entry& entry, int place) {
+    if (entry.value != "on" && entry.value != "off")
+      refuseForm(list, "Contacts", entry, "on or name = off");
+    const SurfaceContact& contact = before.contacts[place];
+    step.isOn[place] = entry.value == "on";
+    if (step.isOn[place] && !contact.isOn && !isFirst &&
+        (contact.hasFriction() || contact.kind == SurfaceContact::Kind::tied))
+      list.refuseValue("Contacts", "\"" + entry.name +
+                                       "\" would draw back what has moved while it was off; contacts with "
+                                       "friction and tied joints may go, but not come back");
+  });
+}
+
+void readGaps(const ListReader& list, const Scene& scene, Step& step) {
+  forEachContact(list, "Gaps", scene, [&](const Entry& entry, int place) {
     if (scene.contacts[place].kind == SurfaceContact::Kind::tied)
-      step.refuseValue("Gaps", "\"" + scene.contacts[place].name +
-                                   "\" is a tied joint, which keeps the gap that there is");
-  return gaps;
+      list.refuseValue("Gaps", "\"" + entry.name + "\" is a tied joint, which keeps the gap that there is");
+    step.gaps[place] = numberIn(list, "Gaps", entry);
+  });
 }
 
 /// Rows of friction are made once: contacts have it in all steps or in none.
-std::map<int, double> frictionOf(const ListReader& step, const Scene& scene) {
-  std::map<int, double> friction = ofContacts(step, "Friction", scene);
-  for (const auto& [place, coefficient] : friction)
-    if (scene.contacts[place].friction == 0 || !(coefficient > 0))
-      step.refuseValue("Friction",
-                       "\"" + scene.contacts[place].name +
+void readCoefficients(const ListReader& list, const Scene& scene, Step& step) {
+  forEachContact(list, "Friction", scene, [&](const Entry& entry, int place) {
+    step.friction[place] = numberIn(list, "Friction", entry);
+    if (scene.contacts[place].friction == 0 || !(step.friction[place] > 0))
+      list.refuseValue("Friction",
+                       "\"" + entry.name +
                            "\" must have a coefficient greater than 0 both here and in its own list");
-  return friction;
+  });
+}
+
+void readPreloads(const ListReader& list, const Scene& scene, bool isFirst, Step& step) {
+  forEachContact(list, "Preload", scene, [&](const Entry& entry, int place) {
+    if (!scene.contacts[place].preload)
+      list.refuseValue("Preload", "\"" + entry.name + "\" has no Preload in its own list");
+    const std::optional<Preload> preload = preloadOf(entry.value);
+    if (!preload)
+      refuseForm(list, "Preload", entry, preloadForms);
+    if (preload->kind == Preload::Kind::locked && isFirst)
+      list.refuseValue("Preload", "\"" + entry.name + "\" cannot be locked where no step has tightened it");
+    step.preloads[place] = *preload;
+  });
 }
 
 } // namespace
@@ -117,20 +181,27 @@ std::vector<Step> readSteps(const Teuchos::ParameterList& list, const std::strin
   own.sublist("Steps") = list.sublist("Steps");
   const Teuchos::ParameterList complete = validated(own, sceneSchema(), where);
   const ListReader all(complete.sublist("Steps"), where, "Steps");
+  Scene before = scene;
   for (const std::string& name : all.names()) {
     const ListReader entry = all.inside(name);
-    steps.push_back({name,
-                     factorsOf(
-                         entry, "Loads", scene, [](const Body& body) -> auto& { return body.loads; }),
-                     factorsOf(
-                         entry, "Supports", scene, [](const Body& body) -> auto& { return body.supports; }),
-                     gapsOf(entry, scene), frictionOf(entry, scene)});
+    const bool isFirst = steps.empty();
+    Step step;
+    step.name = name;
+    readLoads(entry, scene, step);
+    readSupports(entry, scene, isFirst, step);
+    readContactStates(entry, before, isFirst, step);
+    readGaps(entry, scene, step);
+    readCoefficients(entry, scene, step);
+    readPreloads(entry, scene, isFirst, step);
+    steps.push_back(std::move(step));
+    before = atStep(scene, steps, steps.size() - 1);
   }
   return steps;
 }
 
 Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
   std::map<Step::Place, double> loads, supports; // as they stand
+  std::map<Step::Place, SupportState> states;    // likewise
   for (std::size_t k = 0; k <= last; ++k) {
     for (const auto& [place, factor] : steps[k].loads)
       loads[place] = factor;
@@ -140,6 +211,12 @@ Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
       scene.contacts[contact].gap = gap;
     for (const auto& [contact, coefficient] : steps[k].friction)
       scene.contacts[contact].friction = coefficient;
+    for (const auto& [contact, isOn] : steps[k].isOn)
+      scene.contacts[contact].isOn = isOn;
+    for (const auto& [contact, preload] : steps[k].preloads)
+      scene.contacts[contact].preload = preload;
+    for (const auto& [place, state] : steps[k].states)
+      states[place] = state;
   }
   for (const auto& [place, factor] : loads)
     for (double& component : scene.bodies[place.first].loads[place.second].value)
@@ -152,6 +229,14 @@ Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
     if (support.normal)
       *support.normal *= factor;
   }
+  for (const auto& [place, state] : states)
+    if (state == SupportState::fixed)
+      scene.bodies[place.first].supports[place.second].displacements.emplace();
+  for (auto entry = states.rbegin(); entry != states.rend(); ++entry) // the last of a body first
+    if (entry->second == SupportState::off) {
+      std::vector<fem::SolidSupport>& all = scene.bodies[entry->first.first].supports;
+      all.erase(all.begin() + entry->first.second);
+    }
   return scene;
 }
 

@@ -13,14 +13,24 @@
 
 namespace epafi::scene {
 
+/// Whether a support holds.
+enum class SupportState {
+  on,   ///< at its values
+  off,  ///< not
+  fixed ///< where it holds, at what the step before has come to
+};
+
 /// One step. What it does not name stays as the step before had it, or the scene.
 struct Step {
   using Place = std::pair<int, int>; ///< body, and the load's or support's place among its own
   std::string name;
-  std::map<Place, double> loads;    ///< by what the scene's loads are multiplied
-  std::map<Place, double> supports; ///< by what the displacements that supports prescribe are multiplied
-  std::map<int, double> gaps;       ///< Gap of contacts, by their places in Scene::contacts
-  std::map<int, double> friction{}; ///< Friction of contacts that have it, likewise
+  std::map<Place, double> loads;     ///< by what the scene's loads are multiplied
+  std::map<Place, double> supports;  ///< by what the displacements that supports prescribe are multiplied
+  std::map<int, double> gaps;        ///< Gap of contacts, by their places in Scene::contacts
+  std::map<int, double> friction{};  ///< Friction of contacts that have it, likewise
+  std::map<int, bool> isOn{};        ///< whether contacts count, likewise
+  std::map<int, Preload> preloads{}; ///< of tied joints, likewise
+  std::map<Place, SupportState> states{}; ///< of supports that do not merely change their values
 };
 
 /// The list `Steps` of a scene's list, in its order; none if there is none.
@@ -28,7 +38,8 @@ struct Step {
 /// \throws InputError if a step names what is not there. Not collective.
 std::vector<Step> readSteps(const Teuchos::ParameterList& list, const std::string& where, const Scene& scene);
 
-/// The scene as it is when steps 0 … last have been taken.
+/// The scene as it is when steps 0 … last have been taken, but for what the solution of the step before says:
+/// the lengths of locked bolts, and displacements of fixed supports.
 Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last);
 
 } // namespace epafi::scene

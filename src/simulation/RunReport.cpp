@@ -147,6 +147,10 @@ void enterSupports(const std::vector<SupportResult>& supports, ParameterList& li
         .set("Moment", arrayOf(support.moment));
 }
 
+void enterPreload(const PreloadResult& preload, ParameterList& list) {
+  list.set("Force", preload.force).set("Shortening", preload.shortening);
+}
+
 void enterStep(const StepResult& step, ParameterList& list) {
   list.set("Hessian Multiplications", step.multiplications)
       .set("Strain Energy", step.strainEnergy)
@@ -157,6 +161,8 @@ void enterStep(const StepResult& step, ParameterList& list) {
   for (const ContactResult& contact : step.contacts)
     enterContact(contact, list.sublist("Contact").sublist(contact.name));
   enterSupports(step.supports, list);
+  for (const PreloadResult& preload : step.preloads)
+    enterPreload(preload, list.sublist("Preload").sublist(preload.name));
 }
 
 void enterMesh(const accuracy::MeshResult& mesh, ParameterList& list) {
@@ -250,6 +256,8 @@ ParameterList reportOf(const RunResult& result) {
   for (const TieResult& tie : result.ties)
     enterTie(tie, list.sublist("Tied").sublist(tie.name));
   enterSupports(result.supports, list);
+  for (const PreloadResult& preload : result.preloads)
+    enterPreload(preload, list.sublist("Preload").sublist(preload.name));
   for (const BodyResult& body : result.bodies)
     if (body.isElastic)
       list.sublist("Body")

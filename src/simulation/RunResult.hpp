@@ -7,6 +7,7 @@
 #include "epafi/accuracy/AccuracyLoop.hpp"
 #include "epafi/simulation/Evaluation.hpp"
 #include "epafi/simulation/JointResults.hpp"
+#include "epafi/simulation/PreloadResults.hpp"
 #include "epafi/simulation/Quantity.hpp"
 #include "epafi/simulation/SupportResults.hpp"
 
@@ -71,6 +72,7 @@ struct StepResult {
   double strainEnergy = 0, loadWork = 0, dissipation = 0;
   std::vector<ContactResult> contacts;
   std::vector<SupportResult> supports;
+  std::vector<PreloadResult> preloads;
   RunStatus status = RunStatus::notConverged;
   std::string reason; ///< one sentence
 };
@@ -93,6 +95,7 @@ struct RunResult {
   std::vector<ContactResult> contacts;
   std::vector<TieResult> ties;
   std::vector<SupportResult> supports;
+  std::vector<PreloadResult> preloads;
   std::vector<StepResult> steps; ///< in their order, the last one too; none where the scene has none
   std::optional<TargetResult> target;
   RunTimes times;
@@ -110,7 +113,8 @@ void requireSmall(RunResult& result);
 std::string statusOf(const RunResult& result);
 
 /// The report of a run: the lists Epafi, Problem, Algorithm, Plan, Iterations, Accuracy, Start, Quantity,
-/// Body, Contact, Tied, Support, Levels, Time, Memory and Status, as far as there is something to say.
+/// Body, Contact, Tied, Support, Preload, Levels, Time, Memory and Status, as far as there is something to
+/// say.
 Teuchos::ParameterList reportOf(const RunResult& result);
 
 } // namespace epafi::simulation

@@ -192,6 +192,7 @@ void evaluateRun(SceneRun& run) {
   result.contacts = contactResults(solved, run.evaluation);
   result.ties = tieResults(solved);
   result.supports = supportResults(solved);
+  result.preloads = preloadResults(solved);
   result.bodies = bodyResults(solved, run.evaluation);
   result.choosesClusters =
       std::any_of(run.scene.bodies.begin(), run.scene.bodies.end(),
@@ -269,6 +270,8 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   run.decomposition = std::make_unique<model::Decomposition>(
       options.bodies == nullptr ? model::decompose(scene, comm, meshes)
                                 : model::decompose(scene, std::move(*options.bodies), comm));
+  if (options.changeData)
+    options.changeData(*run.decomposition);
   std::optional<QuantityOfScene> quantity;
   if (options.quantity.kind != QuantityParameters::Kind::none)
     quantity.emplace(options.quantity, run.scene, *run.decomposition);

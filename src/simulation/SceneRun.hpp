@@ -12,6 +12,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -75,6 +76,8 @@ struct RunOptions {
   model::Meshes meshes = model::Meshes::whole;
   /// Bodies that are meshed and cut already, which the run takes; null: as the scene says.
   std::vector<model::BodyLayout>* bodies = nullptr;
+  /// Changes data of the problem before anything is factorised. Collective; may be null.
+  std::function<void(model::Decomposition&)> changeData{};
 };
 
 /// Decomposes, assembles and solves.

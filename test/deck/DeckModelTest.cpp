@@ -160,15 +160,53 @@ TEST(DeckModelTest, ContactsHaveTheLawOfTheirInteraction) {
   EXPECT_EQ(hard.groups.surfaces.at("HIGH"), (std::vector<std::pair<GlobalOrdinal, int>>{{2, 1}}));
 }
 
+TEST(DeckModelTest, SupportsAndPairsComeAndGoWithSteps) {
+  deck::DeckModel model = modelOf(
+      cubes(apart, "*SURFACE,NAME=LOW\n1,S2\n*SURFACE,NAME=HIGH\n2,S1\n*SURFACE INTERACTION,NAME=I\n"
+                   "*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE\nHIGH,LOW\n*BOUNDARY\nFOOT,1\n"
+                   "*STEP\n*STATIC\n*END STEP\n"
+                   "*STEP\n*STATIC\n*MODEL CHANGE,TYPE=CONTACT PAIR,REMOVE\nHIGH,LOW\n"
+                   "*BOUNDARY,OP=NEW\nHEAD,1,1,0.5\n*END STEP\n"
+                   "*STEP\n*STATIC\n*BOUNDARY,FIXED\nHEAD,1\n*END STEP\n"));
+  const auto step = [&](int number, const char* parameter) {
+    return model.scene.sublist("Steps")
+        .sublist("step " + std::to_string(number))
+        .get<std::string>(parameter, "");
+  };
+  EXPECT_EQ(step(1, "Supports"), "body 1/support 1 = 1, body 2/support 1 = off, ");
+  EXPECT_EQ(step(2, "Contacts"), "HIGH - LOW = off, ");
+  EXPECT_EQ(step(3, "Contacts"), "");
+  EXPECT_NE(step(2, "Supports").find("body 1/support 1 = off, body 2/support 1 = 1"), std::string::npos);
+  EXPECT_NE(step(3, "Supports").find("body 2/support 1 = fixed"), std::string::npos);
+}
+
+TEST(DeckModelTest, ABoltIsCutAtItsSectionAndTightenedStepByStep) {
+  deck::DeckModel model =
+      modelOf(cubes(joined, "*SURFACE,NAME=LOW\n1,S2\n*PRE-TENSION SECTION,SURFACE=LOW,NODE=15\n0.,0.,2.\n"
+                            "*STEP\n*STATIC\n*CLOAD\n15,1,7.\n*END STEP\n"
+                            "*STEP\n*STATIC\n*BOUNDARY,FIXED\n15,1\n*END STEP\n"
+                            "*STEP\n*STATIC\n*BOUNDARY\n15,1,1,.25\n*END STEP\n"));
+  ParameterList& bolt = model.scene.sublist("Contact").sublist("bolt LOW");
+  EXPECT_EQ(bolt.get<std::string>("First Body"), "body 1");
+  EXPECT_EQ(bolt.get<std::string>("Second Body"), "body 2");
+  EXPECT_EQ(bolt.get<std::string>("Preload"), "force 7");
+  EXPECT_EQ(bolt.get<Teuchos::Array<double>>("Preload Direction").toVector(), (std::vector<double>{0, 0, 2}));
+  for (const auto& [step, preload] :
+       {std::pair("step 2", "bolt LOW = locked, "), std::pair("step 3", "bolt LOW = shortening 0.25, ")})
+    EXPECT_EQ(model.scene.sublist("Steps").sublist(step).get<std::string>("Preload"), preload);
+  EXPECT_FALSE(model.scene.isSublist("Equations")) << "the nodes in between are joined by the bolt alone";
+  EXPECT_EQ(model.nodeNumbers[0], (std::vector<GlobalOrdinal>{1, 2, 3, 4, 29, 30, 31, 32}));
+}
+
 TEST(DeckModelTest, SaysByLineWhatIsNotSolved) {
   for (const auto& [more, part] :
        {std::pair("", "no *STEP"),
         std::pair("*STEP\n*STATIC\n*CLOAD\n15,1,1.\n*END STEP\n",
                   "line 34: *CLOAD: node 15 belongs to no element"),
-        std::pair("*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\nFOOT,1\n*END STEP\n", "later step"),
-        std::pair("*BOUNDARY\nFOOT,1\n*STEP\n*STATIC\n*END "
-                  "STEP\n*STEP\n*STATIC\n*BOUNDARY,OP=NEW\nHEAD,1\n*END STEP\n",
-                  "*BOUNDARY"),
+        std::pair("*STEP\n*STATIC\n*BOUNDARY,FIXED\nFOOT,1\n*END STEP\n", "FIXED holds what a step before"),
+        std::pair("*SURFACE,NAME=SIDE\n1,S3\n*PRE-TENSION SECTION,SURFACE=SIDE,NODE=15\n1.,0.,0.\n*STEP\n"
+                  "*STATIC\n*END STEP\n",
+                  "do not part one body"),
         std::pair("*EQUATION\n2\n1,1,1.,15,1,-1.\n*STEP\n*STATIC\n*END STEP\n",
                   "node 15 belongs to no element")})
     EXPECT_NE(refusalOf(cubes(joined, more)).find(part), std::string::npos) << refusalOf(cubes(joined, more));

@@ -1,5 +1,7 @@
 #include "SceneLists.hpp"
 
+#include "epafi/scene/ContactReader.hpp"
+
 #include <limits>
 
 namespace {
@@ -59,6 +61,16 @@ TEST(ContactReaderTest, RefusesFrictionWhereNothingCanSlip) {
              {"a.xml: ", "\"Friction\"", "\"Contact/interface\"", "0.3", "membranes", "elastic bodies"});
   expectSays(refusalOfPair("Friction", -0.3), {"a.xml: ", "\"Friction\"", "-0.3"});
   expectSays(refusalOfPair("Friction Bound", 2.0), {"\"Friction Bound\"", "membranes"});
+}
+
+TEST(ContactReaderTest, APreloadIsAForceOrALengthAndAStepMayLockIt) {
+  using Kind = scene::Preload::Kind;
+  EXPECT_EQ(scene::preloadOf("force 20")->kind, Kind::force);
+  EXPECT_EQ(scene::preloadOf("shortening  -0.5")->value, -0.5);
+  EXPECT_EQ(scene::preloadOf("locked")->kind, Kind::locked);
+  for (const char* const text : {"", "force", "force x", "force 1 2", "torque 3", "lock"})
+    EXPECT_FALSE(scene::preloadOf(text)) << text;
+  expectSays(refusalOfPair("Preload", "force 20"), {"\"Preload\"", "\"Contact/interface\"", "tied joints"});
 }
 
 TEST(ContactReaderTest, RefusesAGapThatIsNotFinite) {

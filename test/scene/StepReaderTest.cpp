@@ -85,14 +85,38 @@ TEST(StepReaderTest, CoefficientsOfFrictionChangeWhereThereIsFriction) {
              {"\"Friction\"", "\"interface\"", "greater than 0"});
 }
 
+TEST(StepReaderTest, SupportsAndContactsComeAndGo) {
+  ParameterList list = loaded();
+  list.sublist("Steps").sublist("free").set("Supports", "left/wall = off").set("Contacts", "interface = off");
+  list.sublist("Steps")
+      .sublist("hold")
+      .set("Supports", "left/wall = fixed")
+      .set("Contacts", "interface = on");
+  list.sublist("Steps").sublist("move").set("Supports", "left/wall = 2");
+  const scene::Scene whole = scene::readScene(list, "a.xml");
+  const std::vector<scene::Step> steps = stepsOf(list);
+  const scene::Scene free = scene::atStep(whole, steps, 0), hold = scene::atStep(whole, steps, 1),
+                     move = scene::atStep(whole, steps, 2);
+  EXPECT_EQ(free.bodies[0].supports.size() + 1, whole.bodies[0].supports.size());
+  EXPECT_FALSE(free.contacts[0].isOn);
+  EXPECT_TRUE(hold.contacts[0].isOn);
+  EXPECT_TRUE(hold.bodies[0].supports[0].displacements.has_value());
+  EXPECT_FALSE(move.bodies[0].supports[0].displacements.has_value());
+  EXPECT_EQ(move.bodies[0].supports[0].value[0], 1);
+  expectSays(refusalOfStep("Supports", "left/wall = fixed"), {"\"Supports\"", "left/wall", "no step"});
+  expectSays(refusalOfStep("Contacts", "interface = gone"), {"\"Contacts\"", "name = off"});
+  expectSays(refusalOfStep("Preload", "interface = locked"), {"\"Preload\"", "has no Preload"});
+}
+
 TEST(StepReaderTest, RefusesWhatIsNotThere) {
   expectSays(refusalOfStep("Loads", "left/psuh=1"),
              {"a.xml: ", "\"Loads\"", "\"Steps/press\"", "left/psuh", "did you mean \"left/push\"?"});
   expectSays(refusalOfStep("Supports", "right/x=1"), {"\"Supports\"", "right/x", "\"left/wall\""});
   expectSays(refusalOfStep("Gaps", "contact=1"), {"\"Gaps\"", "contact", "\"interface\""});
   for (const char* const text :
-       {"left/push", "left/push=", "left/push=two", "left/push=1e999", "=", "left/push=1 2", "left/push=+-1"})
+       {"left/push", "left/push=", "left/push=two", "left/push=1e999", "left/push=1 2", "left/push=+-1"})
     expectSays(refusalOfStep("Loads", text), {"\"Loads\"", "name = number"});
+  expectSays(refusalOfStep("Loads", "="), {"\"Loads\"", "name = value"});
   expectSays(refusalOfStep("Loads", "left/push = 1, left/push = 0"),
              {"\"Loads\"", "\"left/push\" is named twice"});
 }
