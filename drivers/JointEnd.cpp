@@ -61,22 +61,6 @@ void endForAll(MPI_Comm messages, int rank, int size, const Failure& failure) {
   MPI_Abort(MPI_COMM_WORLD, failure.code);
 }
 
-/// A process that nobody launched beside others needs no daemon of Open MPI, no search for fast networks and
-/// no X server, which take ten times as long as the rest of the start; nor a directory for what ranks share,
-/// which would be that of all such processes: one that starts while another one ends fails when that takes it
-/// away. What the user has set stays.
-void startLean() {
-  for (const char* ofLaunchers : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_PORT",
-                                  "SLURM_PROCID", "MPI_LOCALRANKID", "FLUX_JOB_ID", "ALPS_APP_PE"})
-    if (std::getenv(ofLaunchers) != nullptr)
-      return;
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-  setenv("OMPI_MCA_sharedfp", "^sm", 0); // whose file would be there
-  setenv("OMPI_MCA_pml", "ob1", 0);
-  setenv("HWLOC_COMPONENTS", "-gl", 0);
-}
-
 int endAfter(const Failure& failure, const Comm& comm, MPI_Comm messages, double patience) {
   const int rank = comm.getRank(), size = comm.getSize();
   int code = failure.code;
@@ -116,6 +100,18 @@ int endTogether(const Comm& comm, const std::function<int()>& work, double patie
     failure = {notConverged, "an unknown error occurred", program};
   }
   return endAfter(failure, comm, messages, patience);
+}
+
+void startLean() {
+  for (const char* ofLaunchers : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_PORT",
+                                  "SLURM_PROCID", "MPI_LOCALRANKID", "FLUX_JOB_ID", "ALPS_APP_PE"})
+    if (std::getenv(ofLaunchers) != nullptr)
+      return;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+  setenv("OMPI_MCA_sharedfp", "^sm", 0); // whose file would be there
+  setenv("OMPI_MCA_pml", "ob1", 0);
+  setenv("HWLOC_COMPONENTS", "-gl", 0);
 }
 
 int runMain(int argc, char** argv, const std::string& program,

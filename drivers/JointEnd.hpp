@@ -26,6 +26,12 @@ enum ExitCode : int { solved = 0, notConverged = 1, wrongInput = 2, notSolvable 
 int endTogether(const Comm& comm, const std::function<int()>& work, double patience = 3.0,
                 const std::string& program = "epafi");
 
+/// A process that nobody launched beside others needs no daemon of Open MPI, no search for fast networks and
+/// no X server, which take ten times as long as the rest of the start; nor a directory for what ranks share,
+/// which would be that of all such processes: one that starts while another one ends fails when that takes it
+/// away. What the user has set stays.
+void startLean();
+
 /// What the programs' main() does: MPI from here to the end, and `work` on all ranks, with memory as
 /// keepFreedMemory has it. Returns the exit code.
 int runMain(int argc, char** argv, const std::string& program,

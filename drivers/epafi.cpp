@@ -7,8 +7,7 @@
 #include "RunWatch.hpp"
 #include "StopSignals.hpp"
 #include "Summary.hpp"
-#include "epafi/simulation/AccurateRun.hpp"
-#include "epafi/simulation/StepRun.hpp"
+#include "Task.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
@@ -17,7 +16,6 @@
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/scene/ParameterFile.hpp"
 #include "epafi/scene/ParameterOverride.hpp"
-#include "epafi/scene/SceneReader.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
@@ -64,52 +62,23 @@ bool print(const std::string& text) {
   return false;
 }
 
-/// On the scene's own mesh, or on finer ones until the error is small enough.
-simulation::SceneRun solveAsAsked(const scene::Scene& scene, const std::vector<scene::Step>& steps,
-                                  const Teuchos::ParameterList& list, const RCP<const Comm>& comm,
-                                  RunWatch& watch, RunFiles& files, bool speaks) {
-  const auto accuracy = simulation::AccuracyParameters::from(list.sublist("Accuracy"));
-  const Teuchos::ParameterList& solver = list.sublist("Solver");
-  const simulation::RunOptions options{.estimatesError = accuracy.estimate,
-                                       .requiresSmall = accuracy.requiresSmall,
-                                       .quantity = accuracy.quantity,
-                                       .facts = {.coarserFrom = accuracy.coarserFrom},
-                                       .companion = &watch,
-                                       .meshes = model::Meshes::pieces};
-  if (!steps.empty())
-    return simulation::solveSteps(scene, steps, solver, comm, options, [&](simulation::SceneRun& run) {
-      files.writeStage(run);
-      if (speaks) // of a step whose files are there
-        std::cout << describe(run.result.steps.back()) << std::flush;
-    });
-  if (accuracy.target == 0)
-    return simulation::solveScene(scene, solver, comm, options);
-  watch.expectSeries();
-  const auto tell = [&](const accuracy::MeshResult& mesh, simulation::SceneRun& run) {
+simulation::SceneRun solveAsAsked(const Task& task, const RCP<const Comm>& comm, RunWatch& watch,
+                                  RunFiles& files, bool speaks) {
+  const auto tell = [&](simulation::SceneRun& run, const auto& stage) {
     files.writeStage(run);
-    if (speaks) // of a mesh whose files are there
-      std::cout << describe(mesh) << std::flush;
+    if (speaks) // of a stage whose files are there
+      std::cout << describe(stage) << std::flush;
   };
+  const bool isSeries = task.accuracy.target > 0;
+  if (isSeries)
+    watch.expectSeries();
   simulation::SceneRun run =
-      std::move(simulation::solveToTarget(scene, solver, accuracy, comm, &watch, tell).run);
-  if (watch.restarts() && speaks)
+      solveTask(task, comm, &watch,
+                {.mesh = [&](const accuracy::MeshResult& mesh, auto& stage) { tell(stage, mesh); },
+                 .step = [&](simulation::SceneRun& stage) { tell(stage, stage.result.steps.back()); }});
+  if (isSeries && watch.restarts() && speaks)
     std::cout << "  restart     the checkpoint belongs to none of these meshes: all was done anew\n";
   return run;
-}
-
-/// Steps go on one mesh, to no number with a bar.
-void requireOneOfBoth(const std::string& file, const std::vector<scene::Step>& steps,
-                      const Teuchos::ParameterList& list) {
-  const auto accuracy = simulation::AccuracyParameters::from(list);
-  if (accuracy.target > 0 && deck::isDeck(file))
-    throw InputError(file +
-                     ": a deck is solved on its own mesh: finer ones would not have its groups of nodes; "
-                     "leave out the target, or refine the deck where it comes from.");
-  if (!steps.empty() &&
-      (accuracy.target > 0 || accuracy.quantity.kind != simulation::QuantityParameters::Kind::none))
-    throw InputError(file +
-                     ": list \"Steps\" cannot go together with a Target or a Quantity in list "
-                     "\"Accuracy\": load steps are solved on the mesh that is given; leave out one of them.");
 }
 
 /// Better now than after an hour. Collective.
@@ -136,20 +105,18 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   const Teuchos::ParameterList schema = simulation::driverSchema();
   for (const std::string& text : options.overrides)
     scene::applyOverride(given, schema, text);
-  const Teuchos::ParameterList list = validated(given, schema, options.scene);
-  const scene::Scene scene = scene::readScene(given, options.scene);
-  const std::vector<scene::Step> steps = scene::readSteps(given, options.scene, scene);
-  requireOneOfBoth(options.scene, steps, list.sublist("Accuracy"));
+  const Task task = readTask(given, options.scene);
+  const std::string& title = task.scene.title;
   if (!options.frd.empty())
-    output::requireElasticBodies(scene, options.scene + ", option --frd");
+    output::requireElasticBodies(task.scene, options.scene + ", option --frd");
   requireTargets(options, *comm);
   if (speaks)
-    std::cout << "Epafi " << version() << ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
+    std::cout << "Epafi " << version() << ": " << (title.empty() ? options.scene : title) << '\n'
               << notesOf(options.scene) << std::flush;
 
   RunWatch watch(options, comm);
   RunFiles files(options, watch, comm, start);
-  simulation::SceneRun run = solveAsAsked(scene, steps, list, comm, watch, files, speaks);
+  simulation::SceneRun run = solveAsAsked(task, comm, watch, files, speaks);
   const bool isInterrupted = run.result.status == simulation::RunStatus::interrupted;
   const std::string signal = isInterrupted ? watch.signal() : "";
   files.finish(run);
