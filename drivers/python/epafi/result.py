@@ -29,8 +29,8 @@ class Fields:
     """Arrays with names."""
 
     def __repr__(self) -> str:
-        own = ((key, value) for key, value in vars(self).items() if value is not None)
-        return f"{type(self).__name__}({', '.join(f'{key} {value.shape}' if hasattr(value, 'shape') else repr(value) for key, value in own)})"
+        own = ", ".join(f"{key} {getattr(value, 'shape', value)}" for key, value in vars(self).items() if value is not None)
+        return f"{type(self).__name__}({own})"
 
 
 @dataclasses.dataclass(eq=False, repr=False)
