@@ -260,6 +260,29 @@ TEST(DiscsTest, AShiftedSetIsTheSetSeenFromElsewhere) {
   EXPECT_LE((test::gather(there) - test::gather(here)).norm(), 1e-14);
 }
 
+TEST(DiscsTest, APairOnACircleThatGrowsFollowsItsLeaderOutwards) {
+  const auto map = mapOfNodes(test::linearMap(1)->getComm()->getSize());
+  Disc disc{.first = 1, .second = 2, .radius = 1};
+  disc.slope = 0.5;
+  const qp::Discs discs(qp::Box(), {disc}, map);
+  Vector x(map), g(map);
+  x.replaceLocalValue(1, 0.6);
+  x.replaceLocalValue(2, -0.8);
+  for (const bool isFree : {false, true}) {
+    qp::Face face(map);
+    face.isFree.replaceLocalValue(0, isFree ? 1.0 : 0.0);
+
+    discs.followBoundary(x, g, 0, nullptr, face);
+
+    ASSERT_EQ(face.followers.size(), isFree ? 2U : 0U) << "only with a leader that moves";
+    Vector direction(map);
+    direction.replaceLocalValue(0, 2.0);
+    face.addFollowers(direction);
+    EXPECT_NEAR(direction.getData()[1], isFree ? 0.6 : 0, 1e-15);
+    EXPECT_NEAR(direction.getData()[2], isFree ? -0.8 : 0, 1e-15);
+  }
+}
+
 TEST(DiscsTest, DiscsHaveNoDirectionWithoutAnEnd) {
   const TrescaProblem problem = trescaProblem(3, 5, 0.5);
   const auto given = handedOver(problem);

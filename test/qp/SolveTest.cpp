@@ -3,6 +3,7 @@
 #include "support/DenseOracle.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Maps.hpp"
 #include "epafi/qp/constraints/Box.hpp"
 #include "epafi/qp/operators/LocalData.hpp"
 #include "epafi/qp/solve/Solve.hpp"
@@ -10,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 /// One way to solve: methods that take over from each other, sets that move, programs that are shifted.
 namespace {
@@ -86,7 +89,8 @@ TEST(QpAlgorithmTest, RowsMayBeGivenAsAConstraintOfOnesOwn) {
 
 /// min ½|x|² − bᵀx over x_0 ≥ 0, |x_1| ≤ x_0/2 in every pair of entries: for b = (2, 3) x = (2, 1).
 struct Wedges {
-  RCP<const Map> map = test::linearMap(8);
+  bool knowGrowth = false; ///< whether the set tells how its bounds grow
+  RCP<const Map> map = ofPairs(4);
   qp::QuadraticProgram program{.hessian = rcp(new test::DenseOperator(map, Eigen::MatrixXd::Identity(8, 8))),
                                .linearTerm = test::makeVector(map, ends(2, 3)),
                                .operatorNorm = 1};
@@ -94,6 +98,13 @@ struct Wedges {
   Wedges() {
     program.set = setAt(Vector(map));
     program.setAt = [this](const Vector& x) { return setAt(x); };
+  }
+  /// Both of a pair on one rank.
+  static RCP<const Map> ofPairs(int number) {
+    std::vector<GlobalOrdinal> mine;
+    for (const GlobalOrdinal pair : localIndices(*test::linearMap(number)))
+      mine.insert(mine.end(), {2 * pair, 2 * pair + 1});
+    return makeMap(std::move(mine), test::linearMap(number)->getComm());
   }
   static Eigen::VectorXd ends(double even, double odd) {
     Eigen::VectorXd values(8);
@@ -108,7 +119,10 @@ struct Wedges {
       upper[i] = 0.5 * std::max(values[i - 1], 0.0);
       lower[i] = -upper[i];
     }
-    return rcp(new qp::Box(test::makeVector(map, lower), test::makeVector(map, upper)));
+    std::vector<qp::Box::Growth> growth;
+    for (LocalOrdinal i = 0; knowGrowth && i < static_cast<LocalOrdinal>(numLocal(*map)); i += 2)
+      growth.push_back({i + 1, i, 0.5});
+    return rcp(new qp::Box(test::makeVector(map, lower), test::makeVector(map, upper), growth));
   }
 };
 
@@ -120,6 +134,34 @@ TEST(SolveTest, ASetThatMovesWithTheSolutionIsFollowed) {
     EXPECT_EQ(report.status, Status::converged) << report.reason;
     EXPECT_LE((test::gather(x) - Wedges::ends(2, 1)).norm(), 1e-9);
   }
+}
+
+TEST(SolveTest, BoundsThatAreKnownToGrowAreFollowedOnTheirFace) {
+  const Eigen::MatrixXd a = 0.7 * Eigen::MatrixXd::Identity(8, 8) + Eigen::MatrixXd::Constant(8, 8, 0.3);
+  Eigen::VectorXd b = Wedges::ends(2, 3);
+  for (Eigen::Index i = 0; i < 8; ++i)
+    b[i] += 0.03 * static_cast<double>(i * i);
+  std::vector<int> products;
+  for (const bool knowGrowth : {false, true}) {
+    Wedges wedges;
+    wedges.knowGrowth = knowGrowth;
+    wedges.program.hessian = rcp(new test::DenseOperator(wedges.map, a));
+    wedges.program.linearTerm = test::makeVector(wedges.map, b);
+    wedges.program.operatorNorm = 3.1;
+    Vector x(wedges.map);
+
+    const auto report = qp::solve(wedges.program, Method::activeSets, {1e-10, 1.0}, {}, x);
+
+    EXPECT_EQ(report.status, Status::converged) << report.reason;
+    const Eigen::VectorXd found = test::gather(x), gradient = a * found - b;
+    for (Eigen::Index i = 0; i < 8; i += 2) {
+      EXPECT_NEAR(gradient[i], 0, 1e-9);
+      EXPECT_LT(gradient[i + 1], 0);
+      EXPECT_NEAR(found[i + 1], found[i] / 2, 1e-9);
+    }
+    products.push_back(report.counts.hessianMultiplications);
+  }
+  EXPECT_LT(products[1], products[0]);
 }
 
 TEST(SolveTest, AShiftedProgramHasTheShiftedSolution) {

@@ -19,6 +19,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Box::Box(RCP<const Vector> lower, RCP<const Vector> upper)
     : lower_(std::move(lower)), upper_(std::move(upper)) {}
 
+Box::Box(RCP<const Vector> lower, RCP<const Vector> upper, std::vector<Growth> growth)
+    : lower_(std::move(lower)), upper_(std::move(upper)), growth_(std::move(growth)) {}
+
 Box::Local::Local(const Box& box) {
   if (!box.lower_.is_null())
     lower_ = localData(*box.lower_).data();
@@ -212,6 +215,17 @@ double Box::longestMultiplierStep(const Vector& x, const Vector& g, const Vector
   return longest;
 }
 
+void Box::followBoundary(const Vector& x, const Vector& /*g*/, double /*least*/, const Face* /*from*/,
+                         Face& face) const {
+  face.followers.clear();
+  const Local bounds = local();
+  const auto values = localData(x), isFree = localData(face.isFree);
+  for (const auto& [entry, leader, slope] : growth_)
+    if (const Interval interval = bounds[entry];
+        isFree[leader] != 0 && isFree[entry] == 0 && interval.lower < interval.upper)
+      face.followers.push_back({leader, entry, values[entry] < interval.upper ? -slope : slope});
+}
+
 void Box::releases(const Vector& x, const Vector& g, const Vector& s, double least, Vector& y) const {
   const Local bounds = local();
   const auto values = localData(x), gradient = localData(g), shift = localData(s);
@@ -236,7 +250,7 @@ Box Box::shifted(const Vector& x) const {
     }
     return result;
   };
-  return Box(less(lower_), less(upper_));
+  return Box(less(lower_), less(upper_), growth_);
 }
 
 Box Box::cone(const RCP<const Map>& map) const {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace epafi::qp {
 
@@ -51,6 +52,14 @@ public:
   /// one. Shared, never changed.
   explicit Box(RCP<const Vector> lower = Teuchos::null, RCP<const Vector> upper = Teuchos::null);
 
+  /// An interval around 0, or around what a shift made of it, whose half width grows with another entry.
+  struct Growth {
+    LocalOrdinal entry = 0, leader = 0; ///< of this rank
+    double slope = 0;                   ///< of the half width over the leader, > 0
+  };
+  /// \param growth  of entries with bounds on both sides
+  Box(RCP<const Vector> lower, RCP<const Vector> upper, std::vector<Growth> growth);
+
   /// This rank's bounds by local index; cheap to make, valid while the box lives.
   class Local {
   public:
@@ -90,10 +99,13 @@ public:
   [[nodiscard]] RCP<const ConvexSet> shiftedBy(const Vector& x) const override;
   /// 0 takes the place of every finite bound.
   [[nodiscard]] RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const override;
+  void followBoundary(const Vector& x, const Vector& g, double least, const Face* from,
+                      Face& face) const override;
   void releases(const Vector& x, const Vector& g, const Vector& s, double least, Vector& y) const override;
 
 private:
   RCP<const Vector> lower_, upper_;
+  std::vector<Growth> growth_;
 };
 
 } // namespace epafi::qp

@@ -87,7 +87,8 @@ public:
   /// Whether its boundary is curved anywhere, on any rank.
   [[nodiscard]] virtual bool isCurved() const { return false; }
   /// Frees what a curved boundary bounds, along its tangent where x is on it. Where `from` follows
-  /// it already, and g leads inside, the entries become free instead.
+  /// it already, and g leads inside, the entries become free instead. Entries at bounds that grow with others
+  /// follow these.
   /// \param g      the gradient at x  \param least how long what is released is at least
   /// \param from   the last face; null for none
   virtual void followBoundary([[maybe_unused]] const Vector& x, [[maybe_unused]] const Vector& g,

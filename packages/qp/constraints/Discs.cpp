@@ -280,6 +280,7 @@ void Discs::followBoundary(const Vector& x, const Vector& g, double least, const
   const auto values = localData(x), gradient = localData(g);
   const auto isFree = localDataNonConst(face.isFree);
   face.tangents.clear();
+  face.followers.clear();
   std::span<const CircleTangent> last;
   if (from != nullptr)
     last = from->tangents;
@@ -300,6 +301,10 @@ void Discs::followBoundary(const Vector& x, const Vector& g, double least, const
     const Pair along{-normal.second, normal.first};
     face.tangents.push_back(
         {disc.first, disc.second, {along.first, along.second}, along.dot(here), disc.radius});
+    if (disc.slope > 0 && isFree[disc.leader] != 0) {
+      face.followers.push_back({disc.leader, disc.first, disc.slope * normal.first});
+      face.followers.push_back({disc.leader, disc.second, disc.slope * normal.second});
+    }
   }
 }
 

@@ -41,6 +41,8 @@ struct Disc {
   LocalOrdinal first = 0, second = 0; ///< the entries, of this rank
   double radius = 0;                  ///< r ≥ 0; with 0 the pair is fixed
   Pair centre{};                      ///< c
+  LocalOrdinal leader = 0;            ///< the entry with which the radius grows, if its slope is not 0
+  double slope = 0;                   ///< of r over that entry
 
   /// Whether x is inside of the circle, and not on it but for round-off.
   [[nodiscard]] bool isFree(const Pair& x) const;

@@ -19,6 +19,12 @@ void Face::restrict(const Vector& x, Vector& y) const {
   }
 }
 
+void Face::addFollowers(Vector& y) const {
+  const auto out = localDataNonConst(y);
+  for (const Follower& follower : followers)
+    out[follower.entry] += follower.share * out[follower.leader];
+}
+
 /// At the solution g = −κ(x − centre).
 void Face::curve(const Vector& g) {
   const auto gradient = localData(g);
@@ -58,6 +64,7 @@ void Face::weigh(double stiffness, Vector& y) const {
 void copy(const Face& from, Face& to) {
   copy(from.isFree, to.isFree);
   to.tangents = from.tangents;
+  to.followers = from.followers;
 }
 
 } // namespace epafi::qp

@@ -34,8 +34,15 @@ struct CircleTangent {
   }
 };
 
+/// An entry on a bound that grows with another entry, its leader: as this one moves by d, so it moves by
+/// share · d.
+struct Follower {
+  LocalOrdinal leader = 0, entry = 0; ///< of this rank
+  double share = 0;
+};
+
 /// Z = 1 where an entry may move and 0 where it may not, ttᵀ for a pair on its circle, and K = κttᵀ there, 0
-/// elsewhere: the Hessian on the face is Z(A + K)Z.
+/// elsewhere: the Hessian on the face is Z(A + K)Z. Where bounds grow with entries, T = Z and what follows.
 class Face {
 public:
   /// Nothing may move. \param map of the unknowns
@@ -43,9 +50,12 @@ public:
 
   Vector isFree;                       ///< 1 where an entry may move, along a tangent too, else 0
   std::vector<CircleTangent> tangents; ///< of this rank, with their first entries ascending
+  std::vector<Follower> followers;     ///< of this rank; their leaders may move
 
   /// y = Zx. \param y may be x. Not collective, like all that follows.
   void restrict(const Vector& x, Vector& y) const;
+  /// Adds to a direction Zy what follows it: Ty. Not collective.
+  void addFollowers(Vector& y) const;
   /// κ of each tangent, from the gradient g where it was taken.
   void curve(const Vector& g);
   /// y += factor · Kp.

@@ -29,6 +29,14 @@ std::span<const double> FaceEquality::fit(Vector& x) {
   return multiplier_;
 }
 
+void FaceEquality::balance(const Vector& p, Vector& y) {
+  if (numRows_ == 0)
+    return;
+  equality_->product(p, product_);
+  multiplierOf(product_, multiplier_);
+  addTransposed(multiplier_, -1.0, y);
+}
+
 void FaceEquality::addLocalSums(const Vector& x, std::span<AccurateSum> sums) const {
   if (numRows_ > 0)
     equality_->addLocalProduct(x, sums);

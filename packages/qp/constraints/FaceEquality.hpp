@@ -33,6 +33,8 @@ public:
   /// μ with B_Fᵀμ nearest to x on the face, one of these if there are several (FaceInverse.hpp); x becomes 0
   /// off the face. Valid until the next call. Likewise.
   [[nodiscard]] std::span<const double> fit(Vector& x);
+  /// y −= B_Fᵀ(B_F B_Fᵀ)⁻Bp on the face: what balances p, which may lie off it. One message. Collective.
+  void balance(const Vector& p, Vector& y);
   /// μ = (B_F B_Fᵀ)⁻ b. Collective.
   void multiplierOf(std::span<const double> b, std::span<double> mu) const;
   /// y += factor · B_Fᵀμ; y becomes 0 off the face. Not collective.

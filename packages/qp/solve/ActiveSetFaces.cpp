@@ -39,7 +39,8 @@ void ActiveSetIteration::chooseFirstFace(const QuadraticProgram& program) {
 }
 
 /// The next face: x is projected, and may move where no bound holds it or the multiplier of one has the wrong
-/// sign; with caution only where it is the largest of these. False if that is the present face.
+/// sign; with caution only where it is the largest of these. Bounds are followed where few entries change:
+/// among many it is not known yet which way what slips does. False if that is the present face.
 bool ActiveSetIteration::chooseFace(bool isCautious) {
   const Vector& gradient = on_.plainGradient();
   copy(on_.x, inside_);
@@ -48,6 +49,8 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
   const double negligible = negligibleShare * on_.gradientNorm();
   set_->choppedGradient(inside_, gradient, negligible, work_);
   const double least = std::max(negligible, isCautious ? work_.normInf() : 0.0);
+  constexpr double few = 0.1;  // beside what follows
+  constexpr double most = 0.3; // of the gradient that is left, by what the boundary has moved
   set_->freeIndicator(inside_, next_.isFree);
   reduction_.clear();
   {
@@ -65,12 +68,15 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
       sums[2].add((x[i] - inside[i]) * (x[i] - inside[i]));
     }
     sums[0].add(isSameFace() ? 0.0 : 1.0);
+    sums[3].add(static_cast<double>(next_.followers.size()));
   }
   reduction_.reduce();
   numActive_ = static_cast<long long>(reduction_.sum(1));
-  const bool hasSetMoved =
-      program_.setAt && objective_.norm() * std::sqrt(reduction_.sum(2)) > on_.gradientNorm();
-  if (reduction_.sum(0) == 0 && !hasSetMoved)
+  if (!program_.setAt || reduction_.sum(0) > few * reduction_.sum(3))
+    next_.followers.clear();
+  const bool hasMoved =
+      hasMovingBoundary() && on_.stiffness() * std::sqrt(reduction_.sum(2)) > most * on_.gradientNorm();
+  if (reduction_.sum(0) == 0 && !hasMoved)
     return false;
   copy(inside_, on_.x);
   copy(next_, on_.face);
@@ -100,14 +106,11 @@ void ActiveSetIteration::followSet(const Vector& gradient) {
   set_->move(1 / on_.stiffness(), work_, inside_);
 }
 
-/// Whether the next face has this one's tangents, and x has not moved along them; on this rank.
+/// Whether the next face has the tangents of this one's circles; on this rank.
 bool ActiveSetIteration::isSameFace() const {
-  const auto x = localData(on_.x);
-  return std::equal(next_.tangents.begin(), next_.tangents.end(), on_.face.tangents.begin(),
-                    on_.face.tangents.end(), [&](const CircleTangent& next, const CircleTangent& now) {
-                      return next.first == now.first &&
-                             std::abs(now.component(x) - now.origin) <= roundOffOfX * now.radius;
-                    });
+  return std::equal(
+      next_.tangents.begin(), next_.tangents.end(), on_.face.tangents.begin(), on_.face.tangents.end(),
+      [](const CircleTangent& next, const CircleTangent& now) { return next.first == now.first; });
 }
 
 /// Where the face cannot hold Bx = c, lets those move that first stop the motion which is left: along it the
@@ -134,6 +137,7 @@ bool ActiveSetIteration::balance() {
       face[i] = 1;
   std::erase_if(on_.face.tangents,
                 [&](const CircleTangent& tangent) { return distance[tangent.first] <= most; });
+  on_.face.followers.clear();
   copy(inside_, on_.x);
   ++counts_.expansion;
   return true;

@@ -45,6 +45,7 @@ private:
   void release(double share);
   double follow(const Vector& p, double most);
   [[nodiscard]] bool isSameFace() const;
+  [[nodiscard]] bool hasMovingBoundary() const { return program_.setAt || set_->isCurved(); }
   void followSet(const Vector& gradient);
   bool isSolved();
   [[nodiscard]] bool isSmall(double gradient, double energy);

@@ -53,6 +53,8 @@ ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& program, const Ve
   set_->followBoundary(on_.x, on_.gradient(), 0, nullptr, on_.face);
   if (start_.normInf() == 0) // it says nothing of directions on circles: pairs may move as they want to
     on_.face.tangents.clear();
+  if (!program.setAt || start_.normInf() == 0)
+    on_.face.followers.clear();
   isAtOrigin_ = on_.x.normInf() == 0;
 }
 
@@ -106,6 +108,10 @@ Status ActiveSetIteration::settle() {
       }
     } while (!chooseFace(numIdle >= caution) && // where x left Ω, where multipliers are wrong
              !isSmall(on_.gradientNorm() / safety, on_.energy()));
+    if (hasMovingBoundary()) { // where the face was kept though x is off it by little
+      copy(inside_, on_.x);
+      copy(next_, on_.face);
+    }
     ++counts_.expansion;
   }
   copy(best_, on_.x);

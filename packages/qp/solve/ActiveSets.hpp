@@ -41,7 +41,9 @@ struct ActiveSetParameters {
 /// computed afresh; with the best point met stagnated, where faces do not settle, and unbounded, where
 /// one seems to have no minimum (whether it has none says RecessionDirection.hpp). With a set that
 /// depends on x, bounds are those of the last face while a face lasts (Hüeber, Wohlmuth, *Comput. Methods
-/// Appl. Mech. Engrg* 194 (2005)), and what they miss of Ω(x), times ‖A‖, counts as gradient. Collective.
+/// Appl. Mech. Engrg* 194 (2005)), and what they miss of Ω(x), times ‖A‖, counts as gradient. Where the set
+/// knows how they grow and few entries change, x follows them: a step takes more reductions then
+/// (FaceIteration.hpp), and two vectors are kept for each step of the longest face. Collective.
 SolveReport solveByActiveSets(const QuadraticProgram& program, Vector& x,
                               const ActiveSetParameters& parameters, const Tolerances& tolerances,
                               const MprgpParameters& limits, Observer* observer = nullptr);

@@ -4,6 +4,7 @@
 
 #include <Tpetra_Map.hpp>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -57,9 +58,19 @@ void FaceIteration::enter(bool isOrigin) {
   }
   // M overrates what it inverts, by about as much entry by entry on contacts (2.5 to 10 measured).
   constexpr double overrated = 4;
-  stiffness_ = inverseStiffness_ > 0 ? overrated * objective_.scale() / inverseStiffness_ : 0;
+  const auto estimate = [&] {
+    return inverseStiffness_ > 0 ? overrated * objective_.scale() / inverseStiffness_ : 0;
+  };
+  stiffness_ = estimate();
   curvature_ = 0;
+  numKept_ = 0;
+  numIdle_ = 0;
   precondition();
+  hasFollowers_ = reduction_.sum(following) > 0;
+  if (stiffness_ == 0 && reduction_.sum(bent) > 0) { // the first face
+    stiffness_ = estimate();
+    precondition();
+  }
 }
 
 const Vector& FaceIteration::plainGradient() {
@@ -91,6 +102,8 @@ void FaceIteration::precondition() {
   addDot(r_, z_, sums[first]);
   addDot(z_, image_, sums[second]);
   addDot(r_, r_, sums[third]);
+  sums[following] = AccurateSum(static_cast<double>(face.followers.size()));
+  sums[bent] = AccurateSum(static_cast<double>(face.tangents.size()));
   sums[timeIsUp] = AccurateSum(interruption_.timeIsUp() ? 1.0 : 0.0);
   sums[interrupted] = AccurateSum(interruption_.isWanted() ? 1.0 : 0.0);
   sums[look] = AccurateSum(interruption_.isLookWanted() ? 1.0 : 0.0);
@@ -131,6 +144,17 @@ void FaceIteration::applyPreconditioner() {
 }
 
 std::optional<Status> FaceIteration::step() {
+  const auto status = hasFollowers_ ? followingStep() : conjugateStep();
+  if (status)
+    return status;
+  ++counts_.conjugateGradient;
+  precondition();
+  if (!std::isfinite(gradient_))
+    return Status::notFinite;
+  return std::nullopt;
+}
+
+std::optional<Status> FaceIteration::conjugateStep() {
   setConjugate(z_, curvature_ > 0 ? objective_.scale() * timesImage_ / curvature_ : 0.0,
                p_); // z − (zᵀAp/pᵀAp) p
   objective_.multiply(p_, image_);
@@ -154,10 +178,71 @@ std::optional<Status> FaceIteration::step() {
   addScaled(-length, p_, x);
   addScaled(-length * objective_.scale(), image_, g_);
   f_ += length * (0.5 * length * curvature_ - slope_);
-  ++counts_.conjugateGradient;
-  precondition();
-  if (!std::isfinite(gradient_))
-    return Status::notFinite;
+  return std::nullopt;
+}
+
+/// p = Tz and what balances it: most of that moves what follows, too, and what little is left does not.
+void FaceIteration::makeFollowingDirection() {
+  constexpr int passes = 3;
+  for (int pass = 0; pass < (rows_.empty() ? 0 : passes); ++pass) {
+    copy(z_, p_);
+    face.addFollowers(p_);
+    equality_.balance(p_, z_);
+  }
+  copy(z_, p_);
+  face.addFollowers(p_);
+  r_.putScalar(0.0);
+  equality_.balance(p_, r_);
+  addScaled(1.0, r_, p_);
+}
+
+/// The shortest Zg along the directions so far. Where that gets no shorter, nothing follows from now on.
+std::optional<Status> FaceIteration::followingStep() {
+  constexpr std::size_t mostKept = 60;
+  constexpr int mostIdle = 4;
+  constexpr double hardly = 0.98;
+  if (numKept_ == mostKept)
+    numKept_ = 0;
+  if (numKept_ == kept_.size())
+    kept_.push_back({Vector(x.getMap()), Vector(x.getMap())});
+  makeFollowingDirection();
+  objective_.multiply(p_, image_);
+  face.addBending(p_, 1 / objective_.scale(), image_);
+  copy(image_, r_);
+  equality_.addWholeTransposed(equality_.fit(r_), -1.0, image_);
+  face.restrict(image_, r_);
+  sums_.assign(numKept_, AccurateSum());
+  for (std::size_t i = 0; i < numKept_; ++i)
+    addDot(kept_[i].image, r_, sums_[i]);
+  sumOverRanks(*x.getMap()->getComm(), sums_);
+  for (std::size_t i = 0; i < numKept_; ++i) {
+    const double share = sums_[i].value() / kept_[i].squared;
+    addScaled(-share, kept_[i].direction, p_);
+    addScaled(-share, kept_[i].image, image_);
+  }
+  face.restrict(image_, r_);
+  std::array<AccurateSum, 4> sums;
+  addDot(r_, r_, sums[0]);
+  addDot(g_, r_, sums[1]);
+  addDot(p_, image_, sums[2]);
+  addDot(g_, p_, sums[3]);
+  sumOverRanks(*x.getMap()->getComm(), sums);
+  const double squared = sums[0].value(), along = sums[1].value();
+  if (!(squared > 0)) {
+    hasFollowers_ = false;
+    return std::nullopt;
+  }
+  const double length = along / (objective_.scale() * squared);
+  copy(p_, kept_[numKept_].direction);
+  copy(image_, kept_[numKept_].image);
+  kept_[numKept_++].squared = squared;
+  addScaled(-length, p_, x);
+  addScaled(-length * objective_.scale(), image_, g_);
+  f_ += length * (0.5 * length * objective_.scale() * sums[2].value() - sums[3].value());
+  const double rest = gradient_ * gradient_ - along * along / squared;
+  numIdle_ = rest > hardly * gradient_ * gradient_ ? numIdle_ + 1 : 0;
+  if (numIdle_ > mostIdle)
+    hasFollowers_ = false;
   return std::nullopt;
 }
 

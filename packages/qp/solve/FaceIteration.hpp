@@ -2,7 +2,9 @@
 
 /// Conjugate gradients on a face, as if it had no bounds: min ½xᵀAx − bᵀx over what may move, Bx = c held
 /// exactly. Along a circle the face is its tangent, and the objective that of Newton's method for the circle:
-/// ½(x − x0)ᵀK(x − x0) more, K = κttᵀ (Face.hpp).
+/// ½(x − x0)ᵀK(x − x0) more, K = κttᵀ (Face.hpp). Where entries follow bounds that grow with others, the
+/// Hessian Z(A + K)T is not symmetric, and it is GCR with all directions kept (Eisenstat, Elman, Schultz,
+/// *SIAM J. Numer. Anal.* 20 (1983)).
 
 #include "epafi/qp/constraints/FaceEquality.hpp"
 #include "epafi/qp/solve/Interruption.hpp"
@@ -31,9 +33,9 @@ public:
   /// Collective.
   /// \param isOrigin  whether x = 0
   void enter(bool isOrigin = false);
-  /// One step. One product, one application of M, two messages. Returns why there can be none: unbounded
-  /// where there is no curvature, since the face has no minimum or round-off allows no better one.
-  /// Collective.
+  /// One step. One product, one application of M, two messages; where something follows two more, five more
+  /// with rows. Returns why there can be none: unbounded where there is no curvature, since the face has no
+  /// minimum or round-off allows no better one. Collective.
   std::optional<Status> step();
 
   /// Bᵀν of a ν with B_Fᵀν = 0 along which what of Bx − c the face cannot take away, found on entering it, is
@@ -59,8 +61,12 @@ public:
   [[nodiscard]] bool isLookWanted() const { return isLookWanted_; } ///< likewise
 
 private:
-  /// The sums of a step, before those of B's rows: three products, and who wants what.
-  enum Sums : int { first, second, third, timeIsUp, interrupted, look, numOwnSums };
+  /// The sums of a step, before those of B's rows: three products, what follows and is bent, and who wants
+  /// what.
+  enum Sums : int { first, second, third, following, bent, timeIsUp, interrupted, look, numOwnSums };
+  std::optional<Status> conjugateStep();
+  std::optional<Status> followingStep();
+  void makeFollowingDirection();
   void precondition();
   void applyPreconditioner();
   [[nodiscard]] std::span<AccurateSum> rowSums() {
@@ -83,6 +89,16 @@ private:
   double timesImage_ = 0;       ///< zᵀAp
   double slope_ = 0;            ///< gᵀp
   double curvature_ = 0;        ///< pᵀAp of the last step; 0: there was none on this face
+  /// Of the face so far, where something follows: p, Ap − Bᵀη, and ‖ZAp‖².
+  struct Kept {
+    Vector direction, image;
+    double squared = 0;
+  };
+  std::vector<Kept> kept_;
+  std::size_t numKept_ = 0;
+  std::vector<AccurateSum> sums_; ///< work, numKept_
+  int numIdle_ = 0;               ///< steps in a row that have hardly changed ‖Zg‖
+  bool hasFollowers_ = false;     ///< on any rank
   std::optional<Status> wish_;
   bool isLookWanted_ = false;
 };

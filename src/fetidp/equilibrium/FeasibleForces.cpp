@@ -40,19 +40,26 @@ RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& 
     const double pressing = force[node.contact];
     return data.frictionBound(node, pressing > least ? pressing : 0.0);
   };
+  const auto slopeOf = [&](const decomposition::FrictionNode& node) {
+    return data.frictionBound(node, 1) - data.frictionBound(node, 0);
+  };
   std::vector<qp::Disc> discs;
   if (problem.components > 2) {
     for (const decomposition::FrictionNode& node : problem.frictionNodes)
-      discs.push_back({node.firstTangent, node.firstTangent + 1, boundOf(node)});
+      discs.push_back(
+          {node.firstTangent, node.firstTangent + 1, boundOf(node), {}, node.contact, slopeOf(node)});
     return rcp(new qp::Discs(qp::Box(lower), std::move(discs), problem.multiplierMap));
   }
   const RCP<Vector> upper = rcp(new Vector(problem.multiplierMap));
   upper->putScalar(unbounded);
+  std::vector<qp::Box::Growth> growth;
   for (const decomposition::FrictionNode& node : problem.frictionNodes) {
+    if (const double slope = slopeOf(node); slope > 0)
+      growth.push_back({node.firstTangent, node.contact, slope});
     upper->replaceLocalValue(node.firstTangent, boundOf(node));
     lower->replaceLocalValue(node.firstTangent, -boundOf(node));
   }
-  return rcp(new qp::Box(lower, upper));
+  return rcp(new qp::Box(lower, upper, std::move(growth)));
 }
 
 RCP<const qp::ConvexSet> feasibleForcesWithoutFriction(const decomposition::DecomposedProblem& problem) {
