@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace epafi::fetidp {
 namespace {
@@ -28,7 +29,25 @@ Eigen::Vector2d tangentialForce(const DecomposedProblem& problem, const Friction
   return {force[first], problem.components > 2 ? force[first + 1] : 0.0};
 }
 
+/// But those of the tangents of some nodes.
+template <class Which>
+std::vector<KernelEntry> withoutFriction(const DecomposedProblem& problem, const Which& which,
+                                         std::vector<KernelEntry> entries) {
+  std::set<int> left;
+  for (const FrictionNode& node : problem.frictionNodes)
+    if (which(node))
+      for (int k = 0; k < problem.components - 1; ++k)
+        left.insert(node.firstTangent + k);
+  std::erase_if(entries, [&](const KernelEntry& entry) { return left.contains(entry.row); });
+  return entries;
+}
+
 } // namespace
+
+bool hasBoundAlone(const ProblemData& data, const FrictionNode& node) {
+  const double bound = data.frictionBound(node, 0);
+  return bound > 0 && data.frictionBound(node, 1) == bound;
+}
 
 bool sticks(const DecomposedProblem& problem, const ProblemData& data, const FrictionNode& node,
             const Vector& lambda) {
@@ -56,13 +75,15 @@ void ontoFrictionBounds(const DecomposedProblem& problem, const ProblemData& dat
 
 std::vector<KernelEntry> withoutIdleFriction(const DecomposedProblem& problem, const ProblemData& data,
                                              std::vector<KernelEntry> entries) {
-  std::set<int> idle;
-  for (const FrictionNode& node : problem.frictionNodes)
-    if (!(data.frictionBound(node, 1) > 0))
-      for (int k = 0; k < problem.components - 1; ++k)
-        idle.insert(node.firstTangent + k);
-  std::erase_if(entries, [&](const KernelEntry& entry) { return idle.contains(entry.row); });
-  return entries;
+  return withoutFriction(
+      problem, [&](const FrictionNode& node) { return !(data.frictionBound(node, 1) > 0); },
+      std::move(entries));
+}
+
+std::vector<KernelEntry> withoutBoundedFriction(const DecomposedProblem& problem, const ProblemData& data,
+                                                std::vector<KernelEntry> entries) {
+  return withoutFriction(
+      problem, [&](const FrictionNode& node) { return hasBoundAlone(data, node); }, std::move(entries));
 }
 
 std::vector<KernelEntry> withoutSlip(const DecomposedProblem& problem, const ProblemData& data,

@@ -25,6 +25,14 @@ std::vector<KernelEntry> withoutIdleFriction(const decomposition::DecomposedProb
                                              const decomposition::ProblemData& data,
                                              std::vector<KernelEntry> entries);
 
+/// Whether a node's friction has a bound whatever presses there, Tresca's law.
+bool hasBoundAlone(const decomposition::ProblemData& data, const decomposition::FrictionNode& node);
+
+/// But those of friction that has a bound alone.
+std::vector<KernelEntry> withoutBoundedFriction(const decomposition::DecomposedProblem& problem,
+                                                const decomposition::ProblemData& data,
+                                                std::vector<KernelEntry> entries);
+
 /// But those of friction that slips; in space a node that slips keeps the row across its force, along which
 /// it does not, in the place of its first one.
 /// \param slack  in: c − Bu; out: of that row too

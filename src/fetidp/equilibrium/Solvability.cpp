@@ -1,5 +1,6 @@
 #include "epafi/fetidp/equilibrium/Solvability.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
@@ -13,6 +14,7 @@
 #include "epafi/fetidp/equilibrium/SlippingMotions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -160,6 +162,55 @@ void refuseIfTooSteep(const RigidBalance& balance) {
                   " of their resultant");
 }
 
+/// What forces of friction within their bounds do most work along a motion, G̃x with Tresca's law, both
+/// measured as the cone's. Collective.
+Eigen::VectorXd strongestAgainst(const Eigen::VectorXd& motion, const RigidBalance& balance,
+                                 const ProblemData& data, const Eigen::VectorXd& unit) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(motion.size());
+  for (const decomposition::FrictionNode& node : balance.problem.frictionNodes) {
+    const double bound = data.frictionBound(node, 0);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(motion.size());
+    double squared = 0;
+    for (int k = 0; bound > 0 && k < balance.problem.components - 1; ++k)
+      if (const auto row = balance.rows.find(node.firstTangent + k); row != balance.rows.end()) {
+        const Eigen::VectorXd along = row->second.cwiseQuotient(unit);
+        const double work = along.dot(motion);
+        force += work * along;
+        squared += work * work;
+      }
+    if (squared > 0)
+      sum += bound / std::sqrt(squared) * force;
+  }
+  sumOverRanks(*balance.problem.comm, {sum.data(), static_cast<std::size_t>(sum.size())});
+  return sum;
+}
+
+/// Both laws at once: whether a motion shows that the cones of Coulomb's and the bounds of Tresca's do not
+/// hold the loads together, looked for by Frank, Wolfe, *Naval Res. Logist.* 3 (1956). Collective.
+void refuseBeyondBounds(const RigidBalance& balance, const ProblemData& data,
+                        const std::vector<KernelEntry>& entries) {
+  constexpr int maxSteps = 60;
+  constexpr double clear = 1e-9; // beside the load's work
+  const std::vector<decomposition::FrictionNode>& nodes = balance.problem.frictionNodes;
+  const bool isBounded =
+      std::any_of(nodes.begin(), nodes.end(), [&](const auto& node) { return hasBoundAlone(data, node); });
+  if (maxOverRanks(*balance.problem.comm, isBounded ? 1 : 0) == 0)
+    return;
+  const RigidBalance ofCones(balance.problem, data, withoutBoundedFriction(balance.problem, data, entries));
+  const ScaledCone cone(ofCones);
+  Eigen::VectorXd held = Eigen::VectorXd::Zero(cone.resultant.size());
+  for (int step = 0; step < maxSteps; ++step) {
+    const Eigen::VectorXd motion = cone.imbalance(cone.resultant - held);
+    if (motion.norm() == 0)
+      return;
+    const Eigen::VectorXd strongest = strongestAgainst(motion, balance, data, cone.unit);
+    const double work = motion.dot(cone.resultant), rest = work - motion.dot(strongest);
+    if (rest > clear * std::abs(work))
+      refuseSliding(text(rest / (motion.norm() * cone.resultant.norm())) + " of their resultant");
+    held += 2.0 / (step + 2) * (strongest - held);
+  }
+}
+
 } // namespace
 
 void requireUniqueSolution(const DecomposedProblem& problem, const ProblemData& data,
@@ -174,6 +225,8 @@ void requireUniqueSolution(const DecomposedProblem& problem, const ProblemData& 
   const Eigen::VectorXd pulled = cone.imbalance(cone.resultant);
   if (pulled.norm() > 0 && data.hasCoulombFriction())
     refuseIfTooSteep(balance);
+  if (pulled.norm() == 0 && data.hasCoulombFriction())
+    refuseBeyondBounds(balance, data, entries);
   if (pulled.norm() > 0) {
     const Eigen::VectorXd motion = pulled.cwiseQuotient(cone.unit); // allowed, and driven by the load
     refuse(Kind::noSolution, "the load pulls ", balance.words(pulled).bodies,
