@@ -63,7 +63,7 @@ TEST_P(StabilityTest, EndsAsExpected) {
 INSTANTIATE_TEST_SUITE_P(Families, StabilityTest,
                          testing::Values("jumps", "shapes", "floating", "contact", "incompressible",
                                          "meshes that do not match", "units", "choices", "ranks",
-                                         "known failures", "quadratic programs", "input"),
+                                         "known failures", "quadratic programs", "input", "friction"),
                          [](const auto& family) {
                            std::string name = family.param;
                            std::erase(name, ' ');

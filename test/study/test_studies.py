@@ -181,7 +181,7 @@ class StudiesQuadraticPrograms(Studies):
 class StudiesStability(Studies):
     COLUMNS = ["case", "parameter", "expected", "outcome", "ok", "hessian_multiplications"]
     FAMILIES = {"jumps", "shapes", "floating", "contact", "incompressible", "units", "choices", "penalty", "ranks", "known failures",
-                "quadratic programs", "input", "meshes that do not match"}
+                "quadratic programs", "input", "meshes that do not match", "friction"}
 
     def study(self, *prefix):
         return subprocess.run([*prefix, STUDY, "stability", "--quick", "--output", str(self.place)], capture_output=True,

@@ -132,6 +132,36 @@ std::string inspect(const scene::Scene& scene, const model::Decomposition& decom
   return complaint(result, optimality.tension, allowance);
 }
 
+/// With friction, of which the undecomposed problem knows nothing: the solver's own residuals, each force
+/// within its law, and, from rest and without gaps, that the loads' work is twice the strain energy and what
+/// friction takes. Collective.
+std::string inspectFriction(const model::Decomposition& decomposition,
+                            const fetidp::ContactSolution& solution, const Allowance& allowance,
+                            CaseResult& result) {
+  const DecomposedProblem& problem = decomposition.problem;
+  result.penetration = solution.feasibility;
+  result.complementarity = solution.complementarity;
+  result.balance = solution.relativeProjectedGradient;
+  double outside = 0, largest = 0;
+  const auto force = solution.multiplier->getData();
+  for (const decomposition::FrictionNode& node : problem.frictionNodes) {
+    const LocalOrdinal first = node.firstTangent, contact = node.contact;
+    const double along =
+        problem.components == 2 ? std::abs(force[first]) : std::hypot(force[first], force[first + 1]);
+    outside =
+        std::max({outside, -force[contact], along - decomposition.data.frictionBound(node, force[contact])});
+    largest = std::max(largest, std::abs(force[contact]));
+  }
+  outside = maxOverRanks(*problem.comm, outside);
+  largest = maxOverRanks(*problem.comm, largest);
+  std::string wrong = complaint(result, outside - 1e-9 * largest, allowance);
+  const double work = solution.loadWork, spent = 2 * (solution.energy + work) + solution.dissipation;
+  if (decomposition.data.gap().normInf() == 0 &&
+      !(std::abs(work - spent) <= 10 * allowance.complementarity * std::abs(work)))
+    wrong += " the loads' work is " + std::to_string(work) + ", but " + std::to_string(spent) + " is spent";
+  return wrong;
+}
+
 /// Two rows of B for the same nodes that ask for opposite things.
 void contradict(DecomposedProblem& problem) {
   for (auto& subdomain : problem.subdomains) {
@@ -228,7 +258,9 @@ CaseResult solve(const Case& which, const RCP<const Comm>& comm) {
   result.active = static_cast<long long>(solution.activeContactNodes);
   const Allowance allowance(tolerance, given.get("Contrast", 1.0));
   std::string wrong;
-  if (isScene) {
+  if (decomposition.problem.numFriction > 0) {
+    wrong = inspectFriction(decomposition, solution, allowance, result);
+  } else if (isScene) {
     wrong = inspect(scene, decomposition, solution, given.get("Reference Solution", "") != "no", allowance,
                     result);
   } else {
