@@ -3,6 +3,7 @@
 #include "CommandLine.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/meshing/MeshSource.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -41,15 +42,24 @@ Options parseOptions(int argc, const char* const* argv) {
       .value("--checkpoint-interval",
              [&](const std::string& text) { options.checkpointInterval = secondsOf(text); })
       .flag("--print-parameters", options.printParameters)
+      .flag("--list", options.list)
+      .flag("--print-pairs", options.printPairs)
       .flag("--quiet", options.quiet)
       .flag("--version", options.version)
       .words([&](const std::string& word) {
+        if (meshing::isStep(options.scene) && options.completion.empty()) {
+          options.completion = word;
+          return;
+        }
         if (!options.scene.empty())
           throw InputError("two scenes are given, '" + options.scene + "' and '" + word +
                            "'; epafi solves one at a time");
         options.scene = word;
       });
   options.help = line.parse(argc, argv);
+  if ((options.list || options.printPairs) && !meshing::isStep(options.scene))
+    throw InputError("options --list and --print-pairs are for STEP files (.step), but '" + options.scene +
+                     "' is none");
   if (options.scene.empty() && !options.printParameters && !options.help && !options.version)
     throw InputError("no scene is given; call epafi SCENE.xml (see epafi --help)");
   return options;
@@ -58,9 +68,11 @@ Options parseOptions(int argc, const char* const* argv) {
 std::string usage() {
   return "Usage: epafi SCENE.xml [OPTION]...\n"
          "       epafi DECK.inp [OPTION]...\n"
-         "Solves the contact problem of an XML scene, or of an input deck as CalculiX and Abaqus have them, "
-         "by\n"
-         "FETI-DP; start it with mpirun for several ranks.\n\n"
+         "       epafi ASSEMBLY.step [SCENE.xml] [OPTION]...\n"
+         "Solves the contact problem of an XML scene, of an input deck as CalculiX and Abaqus have them, or "
+         "of an\n"
+         "assembly of CAD that a few lines of XML complete, by FETI-DP; start it with mpirun for several "
+         "ranks.\n\n"
          "  --set \"List/Sub list/Parameter=value\"  change one parameter of the scene (repeat for more)\n"
          "  --accuracy SHARE                       refine until the estimated error is at most 1% say\n"
          "  --output DIR                           write DIR/<scene>.h5, .xdmf, history.csv, report.xml and\n"
@@ -70,8 +82,10 @@ std::string usage() {
          "bodies as\n"
          "                                         CalculiX does, for FreeCAD, PrePoMax and cgx\n"
          "  --export SCENE.xml                     write a deck as a scene with its mesh beside it, "
-         "SCENE.msh, and\n"
-         "                                         solve nothing\n"
+         "SCENE.msh, or\n"
+         "                                         an assembly as a whole scene, and solve nothing\n"
+         "  --list                                 print bodies, faces in words and pairs of a STEP file\n"
+         "  --print-pairs                          print the pairs that are found in it as XML to paste\n"
          "  --restart CHECKPOINT                   go on from a checkpoint of this scene, on any number of "
          "ranks\n"
          "  --checkpoint-interval SECONDS          time between checkpoints (600); 0: only at the end\n"

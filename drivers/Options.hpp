@@ -8,7 +8,8 @@
 namespace epafi::drivers {
 
 struct Options {
-  std::string scene;                  ///< XML file or input deck
+  std::string scene;                  ///< XML file, input deck or STEP file
+  std::string completion;             ///< XML file that completes a STEP file; empty: none
   std::vector<std::string> overrides; ///< --set
   std::string output;                 ///< --output DIR; empty: no files
   std::string report;                 ///< --report FILE; empty: only DIR/report.xml
@@ -16,7 +17,8 @@ struct Options {
   std::string frd;                    ///< --frd FILE; empty: none
   std::string restart;                ///< --restart FILE, a checkpoint; empty: from the beginning
   double checkpointInterval = 600;    ///< --checkpoint-interval, seconds; 0: only at the end
-  bool printParameters = false, quiet = false, help = false, version = false;
+  bool printParameters = false, list = false, printPairs = false, quiet = false, help = false,
+       version = false;
 };
 
 /// \throws InputError for an unknown option or a missing value. Not collective (all ranks see the same

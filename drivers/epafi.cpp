@@ -1,5 +1,6 @@
 /// `epafi SCENE.xml`: one contact problem from its XML scene to fields, report and exit code.
 
+#include "AssemblyFiles.hpp"
 #include "DeckFiles.hpp"
 #include "JointEnd.hpp"
 #include "Options.hpp"
@@ -9,13 +10,13 @@
 #include "Summary.hpp"
 #include "Task.hpp"
 
+#include "epafi/assembly/AssemblySchema.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
 #include "epafi/base/Version.hpp"
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/scene/ParameterFile.hpp"
-#include "epafi/scene/ParameterOverride.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
@@ -36,7 +37,7 @@ std::string information(const Options& options) {
     return usage();
   if (options.version)
     return std::string("epafi ") + version() + '\n';
-  return describeParameters(simulation::driverSchema(),
+  return describeParameters(assembly::withAssembly(simulation::driverSchema()),
                             "All parameters of a scene file with type, default, allowed values and meaning, "
                             "as `epafi --print-parameters` prints them.");
 }
@@ -89,7 +90,7 @@ void requireTargets(const Options& options, const Comm& comm) {
   for (const auto& file : files) {
     collectively(comm, [&] {
       std::error_code ignored;
-      for (const std::string& input : {options.scene, options.restart})
+      for (const std::string& input : {options.scene, options.completion, options.restart})
         if (std::filesystem::equivalent(file, input, ignored))
           throw InputError("the file " + file.string() +
                            " would overwrite what is read; choose another name");
@@ -101,10 +102,7 @@ void requireTargets(const Options& options, const Comm& comm) {
 int solve(const Options& options, const RCP<const Comm>& comm) {
   const bool speaks = comm->getRank() == 0 && !options.quiet;
   const double start = Teuchos::Time::wallTime();
-  Teuchos::ParameterList given = scene::readParameterFile(options.scene, *comm);
-  const Teuchos::ParameterList schema = simulation::driverSchema();
-  for (const std::string& text : options.overrides)
-    scene::applyOverride(given, schema, text);
+  const auto [given, notes] = readGiven(options, *comm);
   const Task task = readTask(given, options.scene);
   const std::string& title = task.scene.title;
   if (!options.frd.empty())
@@ -112,7 +110,7 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   requireTargets(options, *comm);
   if (speaks)
     std::cout << "Epafi " << version() << ": " << (title.empty() ? options.scene : title) << '\n'
-              << notesOf(options.scene) << std::flush;
+              << notes << std::flush;
 
   RunWatch watch(options, comm);
   RunFiles files(options, watch, comm, start);
@@ -131,8 +129,15 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
 
 int run(int argc, char** argv, const RCP<const Comm>& comm) {
   const Options options = parseOptions(argc, argv);
+  if ((options.list || options.printPairs) && !options.help) {
+    const std::string text = listOf(options, *comm);
+    return comm->getRank() > 0 || print(text) ? solved : notConverged;
+  }
   if (!options.exported.empty() && !options.help) {
-    exportDeck(options.scene, options.exported, comm);
+    if (meshing::isStep(options.scene))
+      exportAssembly(options, comm);
+    else
+      exportDeck(options.scene, options.exported, comm);
     return solved;
   }
   if (!options.help && !options.version && !options.printParameters)

@@ -100,7 +100,7 @@ RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : 
   for (scene::Body& body : uncut.bodies) {
     body.decomposition = {scene::Decomposition::Method::metis, {1, 1, 1}, 1};
     body.mesh.innerNodes = mesh::InnerNodes::added; // of them edges between simplices are bent
-    if (body.mesh.file.ends_with(".geo"))
+    if (meshing::isGeometry(body.mesh.file))
       body.mesh.order = 2; // on the geometry; nodes on edges can be left out
   }
   std::vector<model::BodyLayout> bodies;
@@ -110,7 +110,7 @@ RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : 
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       const std::string& file = scene_.bodies[b].mesh.file;
       meshes_.push_back(file.empty() ? firstGrid(scene_, b) : simplicesOf(*bodies[b].mesh));
-      isRemeshed_.push_back(file.ends_with(".geo") && isOfSimplices(*bodies[b].mesh));
+      isRemeshed_.push_back(meshing::isGeometry(file) && isOfSimplices(*bodies[b].mesh));
     }
   });
 }

@@ -45,9 +45,9 @@ private:
 /// What Gmsh would take for an empty model, or read without a word.
 void checkFile(const std::string& file) {
   const fs::path path(file);
-  if (path.extension() != ".msh" && path.extension() != ".geo" && !deck::isDeck(file))
+  if (path.extension() != ".msh" && !isGeometry(file) && !deck::isDeck(file))
     throw InputError("The mesh file " + inQuotes(file) +
-                     " is of an unknown kind; its name must end in .msh, .geo or .inp");
+                     " is of an unknown kind; its name must end in .msh, .geo, .step or .inp");
   if (isSplit(file))
     throw InputError(
         "The mesh files " + inQuotes(file) +
@@ -80,15 +80,17 @@ std::string textOfDeck(const std::string& file) {
   return mshText(deck, modelOf(deck, file).groups);
 }
 
-/// What Gmsh saves of a file; empty if `run` saves nothing.
-std::string textOfGmsh(const std::string& file, double meshSizeFactor,
+} // namespace
+
+std::string textOfGmsh(const std::string& file, double meshSizeFactor, int elementsAround,
                        const std::function<void(const GmshSession&, const std::string&)>& run) {
+  checkFile(file);
   loadGmsh();
   const TemporaryFolder folder; // removed by this process, however the other one ends
   inChildProcess(
       [&] {
         const GmshSession session(file);
-        session.open(meshSizeFactor);
+        session.open(meshSizeFactor, elementsAround);
         run(session, folder.file());
       },
       "Gmsh, at work on the mesh file " + inQuotes(file) + ',',
@@ -96,19 +98,9 @@ std::string textOfGmsh(const std::string& file, double meshSizeFactor,
   return fs::exists(folder.file()) ? textOf(folder.file(), file) : "";
 }
 
-std::string textOfGmsh(const std::string& file, double meshSizeFactor, int refinements, int order) {
-  return textOfGmsh(file, meshSizeFactor, [&](const GmshSession& session, const std::string& saved) {
-    session.mesh(refinements, order);
-    session.requireKnown();
-    session.save(saved);
-  });
-}
-
-} // namespace
-
 std::string textOfGeometry(const std::string& file, double meshSizeFactor, const mesh::SizeField& sizes) {
-  checkFile(file);
-  return textOfGmsh(file, meshSizeFactor, [&](const GmshSession& session, const std::string& saved) {
+  constexpr int unused = 16; // sizes say all
+  return textOfGmsh(file, meshSizeFactor, unused, [&](const GmshSession& session, const std::string& saved) {
     if (session.isDiscrete())
       return;
     session.meshWith(sizes);
@@ -116,10 +108,19 @@ std::string textOfGeometry(const std::string& file, double meshSizeFactor, const
   });
 }
 
-std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements, int order) {
+std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements, int order,
+                           int elementsAround) {
+  const auto meshed = [&] {
+    return textOfGmsh(file, meshSizeFactor, elementsAround,
+                      [&](const GmshSession& session, const std::string& saved) {
+                        session.mesh(refinements, order);
+                        session.requireKnown();
+                        session.save(saved);
+                      });
+  };
+  if (isGeometry(file))
+    return meshed();
   checkFile(file);
-  if (file.ends_with(".geo"))
-    return textOfGmsh(file, meshSizeFactor, refinements, order);
   std::string text = deck::isDeck(file) ? textOfDeck(file) : textOf(file, file);
   if (refinements == 0)
     return text;
@@ -127,7 +128,7 @@ std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int r
     throw InputError("The mesh of the deck " + inQuotes(file) +
                      " is solved as it is; refine what epafi --export makes of it");
   (void)readMsh(file, std::move(text)); // a file that is known to be sound can be handed to Gmsh
-  return textOfGmsh(file, meshSizeFactor, refinements, order);
+  return meshed();
 }
 
 } // namespace epafi::meshing

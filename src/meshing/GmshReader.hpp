@@ -9,24 +9,32 @@
 /// which is removed at once.
 
 #include "epafi/mesh/SizeField.hpp"
+#include "epafi/meshing/GmshSession.hpp"
 
+#include <functional>
 #include <string>
 
 namespace epafi::meshing {
 
-/// Text that readMsh() takes; not of several files (isSplit()). A .geo is meshed unless it makes
-/// elements itself. Throws InputError if there is no such file, it cannot be read, Gmsh refuses it or makes
-/// elements of it that are of order 3 or more; Error if Gmsh is needed and cannot be loaded, or the folder
-/// cannot be made.
+/// Text of the file that `run` writes while a session has `file` open, under the name that it is given; empty
+/// if it writes none. \throws as textOfMeshFile, and what `run` throws
+std::string textOfGmsh(const std::string& file, double meshSizeFactor, int elementsAround,
+                       const std::function<void(const GmshSession&, const std::string&)>& run);
+
+/// Text that readMsh() takes; not of several files (isSplit()). A .geo is meshed unless it makes elements
+/// itself, and so is a STEP file. Throws InputError if there is no such file, it cannot be read, Gmsh refuses
+/// it or makes elements of it that are of order 3 or more; Error if Gmsh is needed and cannot be loaded, or
+/// the folder cannot be made.
 ///
-/// \param meshSizeFactor  of a .geo that is meshed: by which all its mesh sizes are multiplied (Gmsh's option
-///        Mesh.MeshSizeFactor, which the geometry itself can read, for what it does not apply to)
+/// \param meshSizeFactor  of a geometry that is meshed: by which all its mesh sizes are multiplied (Gmsh's
+/// option Mesh.MeshSizeFactor, which a .geo itself can read, for what it does not apply to)
 /// \param refinements  how many times every element is split then, into 4 in the plane and 8 in space; new
 /// nodes on curved borders lie on the geometry if the file has one
 /// \param order  of the elements that Gmsh makes, 1 or 2: those of order 2 are curved where the geometry is;
 /// 0: as the file has it. A .msh that need not be refined is not changed
+/// \param elementsAround  of a STEP file: around a circle
 std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, int refinements = 0,
-                           int order = 0);
+                           int order = 0, int elementsAround = 16);
 
 /// Of a geometry, meshed anew in triangles or tetrahedra of order 2: with these sizes, whatever it says of
 /// sizes. Numbers of elements that it gives itself stay (Gmsh's own kernel keeps transfinite curves, layers

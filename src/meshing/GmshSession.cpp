@@ -1,21 +1,15 @@
-#include "epafi/meshing/GmshSession.hpp"
+#include "epafi/meshing/GmshLibrary.hpp"
 
-#include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/meshing/MeshSource.hpp"
 #include "epafi/meshing/MshReader.hpp"
-
-#include <dlfcn.h>
-#include <gmshc.h>
 
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 namespace epafi::meshing {
-namespace {
 
-/// Loaded at the first call, by the name that the run-time linker knows, wherever it lies; then where CMake
-/// found it.
 void* gmshLibrary() {
   for (const char* name : {EPAFI_GMSH_SONAME, EPAFI_GMSH_FILE})
     if (void* library = ::dlopen(name, RTLD_NOW | RTLD_LOCAL))
@@ -26,53 +20,7 @@ void* gmshLibrary() {
               "); install it (Debian: libgmsh-dev), or name its folder in LD_LIBRARY_PATH");
 }
 
-/// A function of the library, of the type that it is assigned to.
-struct Symbol {
-  void* library;
-  const char* name;
-
-  template <class Function>
-  operator Function*() const { // NOLINT(google-explicit-constructor): stands for the function
-    auto* function = reinterpret_cast<Function*>(::dlsym(library, name));
-    if (function == nullptr)
-      throw Error(std::string("The library ") + EPAFI_GMSH_SONAME + " lacks the function " + name +
-                  "; build Epafi anew with the Gmsh that is installed");
-    return function;
-  }
-};
-
-/// The functions of gmshc.h that are called; each ends with an int* for its error.
-struct Gmsh {
-  void* library = gmshLibrary();
-  decltype(&gmshInitialize) initialize = Symbol{library, "gmshInitialize"};
-  decltype(&gmshFinalize) finalize = Symbol{library, "gmshFinalize"};
-  decltype(&gmshFree) free = Symbol{library, "gmshFree"};
-  decltype(&gmshOptionSetNumber) setNumber = Symbol{library, "gmshOptionSetNumber"};
-  decltype(&gmshOptionGetNumber) getNumber = Symbol{library, "gmshOptionGetNumber"};
-  decltype(&gmshLoggerStart) startLog = Symbol{library, "gmshLoggerStart"};
-  decltype(&gmshLoggerGet) log = Symbol{library, "gmshLoggerGet"};
-  decltype(&gmshOpen) open = Symbol{library, "gmshOpen"};
-  decltype(&gmshWrite) write = Symbol{library, "gmshWrite"};
-  decltype(&gmshModelGetDimension) dimension = Symbol{library, "gmshModelGetDimension"};
-  decltype(&gmshModelMeshGenerate) generate = Symbol{library, "gmshModelMeshGenerate"};
-  decltype(&gmshModelMeshRefine) refine = Symbol{library, "gmshModelMeshRefine"};
-  decltype(&gmshModelGetEntities) entities = Symbol{library, "gmshModelGetEntities"};
-  decltype(&gmshModelGetType) typeOf = Symbol{library, "gmshModelGetType"};
-  decltype(&gmshModelMeshRemoveConstraints) removeConstraints =
-      Symbol{library, "gmshModelMeshRemoveConstraints"};
-  decltype(&gmshModelMeshSetSizeCallback) setSizeCallback = Symbol{library, "gmshModelMeshSetSizeCallback"};
-  decltype(&gmshModelMeshFieldSetAsBackgroundMesh) setBackground =
-      Symbol{library, "gmshModelMeshFieldSetAsBackgroundMesh"};
-  decltype(&gmshModelMeshClear) clear = Symbol{library, "gmshModelMeshClear"};
-  decltype(&gmshModelMeshSetOrder) setOrder = Symbol{library, "gmshModelMeshSetOrder"};
-  decltype(&gmshModelMeshGetElementTypes) elementTypes = Symbol{library, "gmshModelMeshGetElementTypes"};
-  decltype(&gmshModelMeshGetElementsByType) elements = Symbol{library, "gmshModelMeshGetElementsByType"};
-
-  static const Gmsh& get() {
-    static const Gmsh functions;
-    return functions;
-  }
-};
+namespace {
 
 /// Sizes where Gmsh asks for them.
 struct ScaledSizes {
@@ -98,21 +46,6 @@ void setSizes(SetCallback set, ScaledSizes& sizes, int* error) {
         &sizes, error);
 }
 
-/// An array that Gmsh allocated, given back at the end.
-template <class T>
-struct GmshArray {
-  T* data = nullptr;
-  std::size_t size = 0;
-
-  GmshArray() = default;
-  ~GmshArray() {
-    if (data != nullptr)
-      Gmsh::get().free(data);
-  }
-  GmshArray(const GmshArray&) = delete;
-  GmshArray& operator=(const GmshArray&) = delete;
-};
-
 /// Gmsh 4.9 and later take one argument more: whether to run as a program.
 template <class Initialize>
 int initialize(Initialize function) {
@@ -129,8 +62,9 @@ int initialize(Initialize function) {
 
 constexpr int anyEntity = -1;
 
-/// The first error that Gmsh has told of; empty if there is none.
-std::string firstError() {
+} // namespace
+
+std::string firstGmshError() {
   constexpr std::string_view kind = "Error: ";
   char** lines = nullptr;
   std::size_t number = 0;
@@ -141,8 +75,6 @@ std::string firstError() {
       return lines[i] + kind.size();
   return "";
 }
-
-} // namespace
 
 void loadGmsh() {
   (void)Gmsh::get();
@@ -166,7 +98,7 @@ GmshSession::~GmshSession() {
 }
 
 void GmshSession::check(int error) const {
-  std::string text = firstError();
+  std::string text = firstGmshError();
   if (error == 0 && text.empty())
     return;
   if (text.empty())
@@ -175,16 +107,11 @@ void GmshSession::check(int error) const {
                    " cannot be read: Gmsh says: " + asSentence(shortened(text)));
 }
 
-template <class Function, class... Arguments>
-void GmshSession::call(Function function, Arguments... arguments) const {
-  int error = 0;
-  function(arguments..., &error);
-  check(error);
-}
-
-void GmshSession::open(double meshSizeFactor) const {
+void GmshSession::open(double meshSizeFactor, int elementsAround) const {
   call(Gmsh::get().setNumber, "Mesh.MeshSizeFactor", meshSizeFactor);
   call(Gmsh::get().open, file_.c_str());
+  if (isStep(file_))
+    nameShapes(elementsAround);
 }
 
 bool GmshSession::isDiscrete() const {

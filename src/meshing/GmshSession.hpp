@@ -2,8 +2,11 @@
 
 /// Gmsh at work on one file. Its library is loaded when first needed.
 
+#include "epafi/mesh/Box.hpp"
 #include "epafi/mesh/SizeField.hpp"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +25,9 @@ public:
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  void open(double meshSizeFactor) const;
+  /// \param elementsAround  of a STEP file: how many elements are to go around a circle. Its solids become
+  /// groups, called as solidNames() says, its faces and corners "face 1" and "point 1", and so on.
+  void open(double meshSizeFactor, int elementsAround = 16) const;
   /// Whether the shape of anything is that of a mesh: of an STL file, or of a mesh that the geometry merges.
   /// Without that mesh it has none.
   [[nodiscard]] bool isDiscrete() const;
@@ -36,7 +41,39 @@ public:
   /// Saves all there is, whatever the file says of how and what to save, but in the lengths that it says.
   void save(const std::string& file) const;
 
+  /// What a STEP file describes, by Gmsh's numbers of solids, faces and corners (dimensions 3, 2 and 0).
+  [[nodiscard]] std::vector<int> solids() const;
+  /// By their instances, "bolt M12:3"; "solid 1" where the file has no name. None twice.
+  [[nodiscard]] std::vector<std::string> solidNames() const;
+  [[nodiscard]] std::vector<int> boundaryOf(int solid, int dimension) const;
+  [[nodiscard]] std::string kindOf(int face) const; ///< "Plane", "Cylinder", "Sphere", …
+  [[nodiscard]] Point placeOf(int corner) const;
+  [[nodiscard]] double measureOf(int dimension, int number) const; ///< volume or area
+  [[nodiscard]] Point centreOf(int face) const;                    ///< of area
+  [[nodiscard]] mesh::Box boxOf(int dimension, int number) const;
+  [[nodiscard]] std::array<double, 4> boundsOf(int face) const; ///< u0, v0, u1, v1 of its parameters
+  /// A point of a face, the normal out of its solid, and area over that of the parameters.
+  struct FacePoint {
+    Point point;
+    Vector3 normal;
+    double stretch;
+  };
+  /// \param parameters  u and v of each
+  [[nodiscard]] std::vector<FacePoint> pointsOf(int face, std::vector<double> parameters) const;
+  /// Whether the point of the surface belongs to the face, which may have holes.
+  [[nodiscard]] bool isInside(int face, double u, double v) const;
+  /// The points of a face's surface, endless or not, that are closest to points.
+  [[nodiscard]] std::vector<Point> closestOn(int face, const std::vector<Point>& points) const;
+  /// u and v of such a point; nothing if it is far outside of the face.
+  [[nodiscard]] std::optional<std::array<double, 2>> parametersOf(int face, Point point) const;
+  struct Curvature {
+    double greatest, least; ///< magnitudes
+    Vector3 leastDirection;
+  };
+  [[nodiscard]] Curvature curvatureOf(int face, double u, double v) const;
+
 private:
+  void nameShapes(int elementsAround) const;
   [[nodiscard]] std::vector<int> elementTypes(int dimension) const;
   /// Throws if Gmsh has told of an error.
   void check(int error) const;

@@ -13,7 +13,8 @@ struct MeshSource {
   mesh::Box box;                        ///< of a structured mesh
   std::array<int, 3> elements{0, 0, 0}; ///< in x, y and z (z: 0 in the plane); of a structured mesh
   std::string file;                     ///< if not empty, a file that Gmsh reads, or several
-  double sizeFactor = 1;                ///< by which all element sizes of a geometry (.geo) are multiplied
+  double sizeFactor = 1;                ///< by which all element sizes of a geometry are multiplied
+  int elementsAround = 16;              ///< elements around a circle; of a STEP file
   int refinements = 0;                  ///< how often every element of the file is split
   int order = 1;                        ///< of the elements, 1 or 2; 0: as the mesh file has it
   mesh::InnerNodes innerNodes = mesh::InnerNodes::added; ///< of elements of order 2 from a file
@@ -22,5 +23,11 @@ struct MeshSource {
 
 /// Whether the name of a mesh file stands for several, which hold a mesh by parts: "press_*.msh".
 bool isSplit(const std::string& file);
+
+/// Whether a file describes an assembly of solids, by its name: .step or .stp, in small or capital letters.
+bool isStep(const std::string& file);
+
+/// Whether Gmsh meshes the file: .geo, or isStep().
+bool isGeometry(const std::string& file);
 
 } // namespace epafi::meshing

@@ -19,11 +19,12 @@
 namespace epafi::model {
 namespace {
 
-/// Meshes from files by file, factor of mesh sizes, refinements, and the order that Gmsh is to give them.
-using MeshFiles = std::map<std::tuple<std::string, double, int, int>, meshing::GmshFile>;
+/// Meshes from files by file, factor of mesh sizes, refinements, the order that Gmsh is to give them, and
+/// elements around a circle.
+using MeshFiles = std::map<std::tuple<std::string, double, int, int, int>, meshing::GmshFile>;
 
 MeshFiles::key_type keyOf(const meshing::MeshSource& source) {
-  return {source.file, source.sizeFactor, source.refinements, source.order};
+  return {source.file, source.sizeFactor, source.refinements, source.order, source.elementsAround};
 }
 
 /// The mesh files of a scene, each read once. Collective.
@@ -34,7 +35,8 @@ MeshFiles readMeshFiles(const scene::Scene& scene, const Comm& comm) {
     if (source.file.empty() || files.contains(keyOf(source)))
       continue;
     const auto makeText = [&] {
-      return meshing::textOfMeshFile(source.file, source.sizeFactor, source.refinements, source.order);
+      return meshing::textOfMeshFile(source.file, source.sizeFactor, source.refinements, source.order,
+                                     source.elementsAround);
     };
     files.emplace(keyOf(source), meshing::meshOnAllRanks(source.file, makeText, comm));
   }

@@ -64,8 +64,12 @@ meshing::MeshSource readMesh(const ListReader& list, int dimension) {
     list.refuseGiven({"Rectangle", "Box", "Elements"}, "the body has a mesh file; remove one of them");
     source.file = list.file("Mesh");
     source.sizeFactor = list.positive("Mesh Size Factor");
-    if (!source.file.ends_with(".geo"))
-      list.refuseGiven({"Mesh Size Factor"}, "only a geometry (.geo) is meshed in a size of your choice");
+    if (!meshing::isGeometry(source.file))
+      list.refuseGiven({"Mesh Size Factor"},
+                       "only a geometry (.geo, .step) is meshed in a size of your choice");
+    source.elementsAround = list.integer("Elements Around");
+    if (!meshing::isStep(source.file))
+      list.refuseGiven({"Elements Around"}, "it is for STEP files; a .geo sets Mesh.MeshSizeFromCurvature");
     source.refinements = list.integer("Mesh Refinements");
     if (meshing::isSplit(source.file)) {
       if (!source.file.ends_with(".msh"))
@@ -78,10 +82,10 @@ meshing::MeshSource readMesh(const ListReader& list, int dimension) {
     source.group = list.word("Group");
     if (list.word("Inner Nodes") == "none")
       source.innerNodes = mesh::InnerNodes::none;
-    source.order = list.has("Order") || source.file.ends_with(".geo") ? list.integer("Order") : 0;
+    source.order = list.has("Order") || meshing::isGeometry(source.file) ? list.integer("Order") : 0;
     return source;
   }
-  list.refuseGiven({"Group", "Mesh Size Factor", "Mesh Refinements", "Inner Nodes"},
+  list.refuseGiven({"Group", "Mesh Size Factor", "Elements Around", "Mesh Refinements", "Inner Nodes"},
                    "the body has no mesh file that it could apply to");
   list.refuseGiven({dimension == 3 ? "Rectangle" : "Box"},
                    "a body in " +

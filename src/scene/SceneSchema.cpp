@@ -64,6 +64,7 @@ void describeMesh(ParameterList& list) {
       list, "Elements", Array<int>(),
       "Number of elements {nx, ny} in x and y, in space {nx, ny, nz}; required unless there is a mesh file.",
       counts);
+<<<<<<< HEAD
   list.set(
       "Mesh", "",
       "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) instead; relative to the scene's "
@@ -72,6 +73,16 @@ void describeMesh(ParameterList& list) {
       "* (press_*.msh) "
       "stands for the files that Gmsh saves of a partitioned mesh (gmsh -part 64 -part_split); ranks "
       "read them side by side.");
+=======
+  list.set("Mesh", "",
+           "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) or a STEP file instead; relative "
+           "to the "
+           "scene's "
+           "directory. Triangles, quadrilaterals, tetrahedra or hexahedra, linear or quadratic. A name with "
+           "* (press_*.msh) "
+           "stands for the files that Gmsh saves of a partitioned mesh (gmsh -part 64 -part_split); ranks "
+           "read them side by side.");
+>>>>>>> 5692a52 (Assemblies of CAD: bodies, faces in words and pairs of a STEP file, found on the exact surfaces; a few lines of XML complete it)
   addInteger(
       list, "Order", bestOrder,
       "Order of the elements: linear or quadratic. Of a mesh file (.msh) its own order counts if none is "
@@ -85,8 +96,10 @@ void describeMesh(ParameterList& list) {
             "they stay as they are.",
             {"added", "none"});
   addReal(list, "Mesh Size Factor", meshing::MeshSource().sizeFactor,
-          "With a .geo file: by which all its mesh sizes are multiplied; 0.5 halves the elements.", 0.0,
-          infinity, true);
+          "With a .geo or STEP file: by which all its mesh sizes are multiplied; 0.5 halves the elements.",
+          0.0, infinity, true);
+  addInteger(list, "Elements Around", meshing::MeshSource().elementsAround,
+             "With a STEP file: how many elements go around a circle, before the factor.", 4, 1000);
   addInteger(
       list, "Mesh Refinements", meshing::MeshSource().refinements,
       "With a mesh file: how many times every element is split, into 4 in the plane and into 8 in space.", 0,

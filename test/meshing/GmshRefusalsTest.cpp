@@ -16,7 +16,8 @@ using GmshRefusalsTest = test::GmshTest;
 
 TEST_F(GmshRefusalsTest, NamesTheFileThatIsMissingOrUnreadable) {
   expectRefusal([&] { GmshFile(folder.path("nothing.msh")); }, {"There is no mesh file", "nothing.msh"});
-  expectRefusal([&] { GmshFile(folder.path("part.stl")); }, {"part.stl", "must end in .msh, .geo or .inp"});
+  expectRefusal([&] { GmshFile(folder.path("part.stl")); },
+                {"part.stl", "must end in .msh, .geo, .step or .inp"});
   expectRefused("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 1 2\n",
                 {"plate.msh", "line 5", "promises 2 nodes"});
   expectRefused("Point(1) = {0, 0, 0};\nLine(1) = {1, 2};\n",

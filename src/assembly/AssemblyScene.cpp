@@ -1,0 +1,88 @@
+#include "epafi/assembly/AssemblyScene.hpp"
+
+#include "epafi/assembly/AssemblyBodies.hpp"
+#include "epafi/assembly/AssemblyPairs.hpp"
+#include "epafi/assembly/AssemblySchema.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Parameters.hpp"
+#include "epafi/base/Text.hpp"
+#include "epafi/meshing/MeshSource.hpp"
+
+namespace epafi::assembly {
+namespace {
+
+using Teuchos::ParameterList;
+
+/// A sublist, or an empty one.
+ParameterList sublistOf(const ParameterList& list, const std::string& name) {
+  return list.isSublist(name) ? list.sublist(name) : ParameterList(name);
+}
+
+ParameterList automaticIn(const ParameterList& given, const std::string& where) {
+  return validated(sublistOf(sublistOf(given, "Contact"), "Automatic"), automaticSchema(),
+                   where + ": list \"Contact/Automatic\"");
+}
+
+/// What is not under faces of the user's choice.
+void checkAssemblyList(ParameterList list, const std::string& where) {
+  ParameterList schema = assemblySchema();
+  for (const char* const name : {"Supports", "Forces", "Pressures"})
+    for (ParameterList* const part : {&list, &schema})
+      part->remove(name, false);
+  (void)validated(list, schema, where);
+}
+
+/// Adds the file's name to what is said of a part of it.
+template <class Work>
+auto in(const std::string& where, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(where + ": " + asSentence(error.what()));
+  }
+}
+
+} // namespace
+
+PairSearch pairSearchIn(const ParameterList& given, const std::string& where) {
+  const ParameterList automatic = automaticIn(given, where);
+  return {automatic.get<double>("Distance"), automatic.get<double>("Angle")};
+}
+
+std::string overviewOf(const Assembly& assembly) {
+  const auto [lower, upper] = assembly.box();
+  return std::to_string(assembly.solids.size()) + " bodies with " + std::to_string(assembly.faces.size()) +
+         " faces, in mm (file: " + assembly.unit + "), N and MPa; box " + text(lower, 4) + " to " +
+         text(upper, 4) + '\n';
+}
+
+ParameterList pairsOf(const Assembly& assembly, const ParameterList& given, const std::string& where,
+                      std::string& notes) {
+  const ParameterList automatic = automaticIn(given, where);
+  ParameterList pairs = sublistOf(given, "Contact");
+  pairs.remove("Automatic", false);
+  return in(where, [&] { return contactsOf(assembly, pairs, automatic, notes); });
+}
+
+AssemblyScene sceneOf(const Assembly& assembly, const ParameterList& given, const std::string& mesh,
+                      const std::string& where) {
+  const ParameterList assemblyList = sublistOf(given, "Assembly");
+  checkAssemblyList(assemblyList, where);
+  AssemblyScene result{given, overviewOf(assembly)};
+  result.scene.remove("Assembly", false);
+  ParameterList bodies = in(where, [&] {
+    return bodiesOf(assembly, sublistOf(given, "Bodies"), assemblyList, mesh, result.notes);
+  });
+  if (const int around = elementsAroundFor(assembly); around > meshing::MeshSource().elementsAround)
+    for (auto body = bodies.begin(); body != bodies.end(); ++body)
+      if (ParameterList& list = bodies.sublist(body->first); !list.isParameter("Elements Around"))
+        list.set("Elements Around", around);
+  const ParameterList contacts = pairsOf(assembly, given, where, result.notes);
+  for (const ParameterList& part : {bodies, contacts}) {
+    result.scene.remove(part.name(), false);
+    result.scene.sublist(part.name()).setParameters(part);
+  }
+  return result;
+}
+
+} // namespace epafi::assembly

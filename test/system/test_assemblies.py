@@ -1,0 +1,132 @@
+#!/usr/bin/python3
+"""test_assemblies.py EPAFI SOURCE_DIR MPIRUN ARGUMENTS...: STEP files, completed by a few lines, from the file to an answer."""
+
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+EPAFI, SOURCE, LAUNCH = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+SOLVED, FAILED, WRONG_INPUT, NOT_SOLVABLE = range(4)
+LIMIT = 240  # seconds
+LINES = 12  # of XML, at most
+
+BLOCKS = """<ParameterList name="Blocks">
+  <ParameterList name="Assembly">
+    <Parameter name="Material" type="string" value="steel"/>
+    <ParameterList name="Supports">
+      <Parameter name="lower block/plane -z" type="string" value="fixed"/>
+      <Parameter name="upper block/plane +z" type="string" value="xy"/>
+    </ParameterList>
+    <ParameterList name="Pressures">
+      <Parameter name="upper block/plane +z" type="double" value="5"/>
+    </ParameterList>
+  </ParameterList>
+</ParameterList>"""
+PIN = """<ParameterList name="Pin in a lug">
+  <ParameterList name="Assembly">
+    <Parameter name="Material" type="string" value="steel"/>
+    <ParameterList name="Supports">
+      <Parameter name="lug/plane -z" type="string" value="fixed"/>
+      <Parameter name="pin/plane" type="string" value="xy"/>
+    </ParameterList>
+    <ParameterList name="Forces">
+      <Parameter name="pin/plane" type="Array(double)" value="{0, 0, 10000}"/>
+    </ParameterList>
+  </ParameterList>
+</ParameterList>"""
+SHRINK_FIT = """<ParameterList name="Shrink fit">
+  <ParameterList name="Assembly">
+    <Parameter name="Material" type="string" value="steel"/>
+    <ParameterList name="Supports">
+      <Parameter name="ring/cylinder r=40" type="string" value="around"/>
+      <Parameter name="ring/plane -z" type="string" value="z"/>
+      <Parameter name="shaft/plane -z" type="string" value="z around z"/>
+    </ParameterList>
+  </ParameterList>
+</ParameterList>"""
+
+
+def step(name):
+    return SOURCE / "test/assembly" / f"{name}.step"
+
+
+def run(*arguments, ranks=1):
+    launch = [*LAUNCH, str(ranks)] if ranks > 1 else []
+    return subprocess.run([*launch, EPAFI, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=LIMIT, check=False)
+
+
+class Assemblies(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = pathlib.Path(place.name)
+
+    def write(self, text):
+        self.assertLessEqual(len(text.splitlines()), LINES)
+        file = self.place / "scene.xml"
+        file.write_text(text, encoding="utf-8")
+        return file
+
+    def contact(self, name, text, pair, ranks=1, *options):
+        """What the report says of a pair, as numbers."""
+        report = self.place / "report.xml"
+        done = run(step(name), self.write(text), "--report", report, *options, ranks=ranks)
+        self.assertEqual(done.returncode, SOLVED, done.stdout + done.stderr)
+        entries = xml.etree.ElementTree.parse(report).findall(
+            f"ParameterList[@name='Contact']/ParameterList[@name='{pair}']/Parameter")
+        values = {entry.get("name"): entry.get("value") for entry in entries if entry.get("type") != "string"}
+        return {key: [float(part) for part in value.strip("{}").split(",")] for key, value in values.items()}
+
+    def test_blocks_carry_what_presses_them_whatever_the_unit_of_the_file(self):
+        for name, ranks in (("blocks", 1), ("blocks_inch", 2)):
+            found = self.contact(name, BLOCKS, "upper block - lower block", ranks)
+            self.assertAlmostEqual(found["Resultant"][2], 2000, delta=2000 * 1e-8)
+            self.assertAlmostEqual(found["Contact Area"][0], 400, delta=1e-3)
+
+    def test_a_pin_with_clearance_carries_its_force(self):
+        found = self.contact("pin_in_lug", PIN, "lug - pin", 2)
+        for value, expected in zip(found["Resultant"], (0, 0, -10000)):
+            self.assertAlmostEqual(abs(value), abs(expected), delta=5)  # the guide takes what is not along z
+        self.assertLess(found["Force Imbalance"][0], 1e-8 * 10000)
+
+    def test_a_shrink_fit_has_lames_pressure(self):
+        found = self.contact("shrink_fit", SHRINK_FIT, "ring - shaft")
+        k = (40**2 + 19.98**2) / (40**2 - 19.98**2)
+        expected = 0.02 * 210000 / (20 * (1 - 0.3) + 19.98 * (k + 0.3))
+        self.assertAlmostEqual(found["Force"][0] / (2 * math.pi * 19.98 * 20), expected, delta=0.005 * expected)
+
+    def test_pairs_that_are_printed_can_be_pasted(self):
+        printed = run(step("blocks"), "--print-pairs")
+        self.assertEqual(printed.returncode, SOLVED, printed.stderr)
+        text = BLOCKS.replace("\n", "").replace("</ParameterList></ParameterList>", "</ParameterList>", 0)
+        pasted = text[:text.rindex("</ParameterList>")] + printed.stdout.replace("\n", "") + "</ParameterList>"
+        found = self.contact("blocks", pasted.replace("name=\"upper block - lower block\"", "name=\"joint\""), "joint")
+        self.assertAlmostEqual(found["Force"][0], 2000, delta=1e-3)
+
+    def test_the_whole_scene_can_be_written_and_solved(self):
+        exported = self.place / "whole.xml"
+        done = run(step("blocks"), self.write(BLOCKS), "--export", exported)
+        self.assertEqual(done.returncode, SOLVED, done.stderr)
+        solved = run(exported)
+        self.assertEqual(solved.returncode, SOLVED, solved.stdout + solved.stderr)
+        self.assertIn("force 2000", solved.stdout)
+
+    def test_lists_name_faces_and_errors_are_sentences(self):
+        listed = run(step("bracket"), "--list")
+        self.assertEqual(listed.returncode, SOLVED, listed.stderr)
+        for words in ("bracket/cylinder r=5.5 z y=-14", "nut M10:2/plane +z", "file: mm", "4 pairs of faces are 0.5 mm apart"):
+            self.assertIn(words, listed.stdout)
+        wrong = run(step("blocks"), self.write(BLOCKS.replace("plane +z", "plane up", 1)))
+        self.assertEqual(wrong.returncode, WRONG_INPUT)
+        self.assertIn('no face "upper block/plane up"; there are plane -x (face 7, area 400', wrong.stderr)
+        self.assertEqual(run(step("blocks")).returncode, WRONG_INPUT)  # no material
+        self.assertIn("--list", run(SOURCE / "xml/membrane.xml", "--list").stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
