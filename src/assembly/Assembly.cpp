@@ -79,6 +79,7 @@ void visit(Archive& archive, FacePair& pair) {
   archive(pair.area);
   archive(pair.leastGap);
   archive(pair.largestGap);
+  visit(archive, pair.closest);
 }
 
 template <class Archive, class T>

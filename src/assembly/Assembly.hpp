@@ -41,6 +41,7 @@ struct FacePair {
   double area = 0;           ///< of the first, as far as it is near
   /// Distances where they are near, overlaps negative; of a near miss twice the least.
   double leastGap = 0, largestGap = 0;
+  Point closest{}; ///< where the least is, on the first
 };
 
 struct Assembly {

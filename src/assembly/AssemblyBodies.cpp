@@ -126,9 +126,10 @@ void BodyMaker::merge(const ParameterList& given, int solid) {
     const ParameterList entries = own.sublist(kind);
     own.remove(kind);
     for (auto entry = entries.begin(); entry != entries.end(); ++entry) {
-      const ParameterList& list = Teuchos::getValue<ParameterList>(entry->second);
+      const bool isList = entry->second.isList(); // if not, that is told where the scene is checked
+      const ParameterList list = isList ? Teuchos::getValue<ParameterList>(entry->second) : ParameterList();
       if (!list.isType<std::string>("Surface")) {
-        own.sublist(kind).sublist(entry->first) = list;
+        own.sublist(kind).setEntry(entry->first, entry->second);
         continue;
       }
       for (const int face : facesOf(assembly_, list.get<std::string>("Surface"), solid)) {
@@ -231,13 +232,10 @@ ParameterList bodiesOf(const Assembly& assembly, const ParameterList& given,
                        const ParameterList& assemblyList, const std::string& mesh, std::string& notes) {
   BodyMaker maker(assembly, notes);
   maker.begin(given, mesh);
-  const auto sublist = [&](const char* name) {
-    return assemblyList.isSublist(name) ? assemblyList.sublist(name) : ParameterList(name);
-  };
-  maker.setMaterials(assemblyList.isParameter("Material") ? assemblyList.get<std::string>("Material") : "");
-  maker.addSupports(sublist("Supports"));
-  maker.addLoads(sublist("Forces"), true);
-  maker.addLoads(sublist("Pressures"), false);
+  maker.setMaterials(assemblyList.get<std::string>("Material"));
+  maker.addSupports(assemblyList.sublist("Supports"));
+  maker.addLoads(assemblyList.sublist("Forces"), true);
+  maker.addLoads(assemblyList.sublist("Pressures"), false);
   return maker.bodies();
 }
 

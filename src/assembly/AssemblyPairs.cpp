@@ -113,6 +113,10 @@ std::string gapsOf(const FacePair& pair, double length) {
 
 } // namespace
 
+bool isPoint(const Assembly& assembly, const FacePair& pair) {
+  return !isConforming(pair) && pair.area < 0.9 * assembly.faces[pair.first].area;
+}
+
 bool isThread(const Assembly& assembly, const FacePair& pair) {
   const Face &a = assembly.faces[pair.first], &b = assembly.faces[pair.second];
   const double same = 1e-6 * assembly.diagonal();
@@ -139,6 +143,9 @@ ParameterList contactsOf(const Assembly& assembly, const ParameterList& given, c
   ParameterList contacts("Contact");
   std::set<std::pair<int, int>> known;
   for (auto entry = given.begin(); entry != given.end(); ++entry) {
+    if (!entry->second.isList())
+      throw InputError("list \"Contact\" holds the parameter " + inQuotes(entry->first) +
+                       ", but must hold lists, one a pair");
     ParameterList& pair = contacts.sublist(entry->first);
     pair.setParameters(Teuchos::getValue<ParameterList>(entry->second));
     known.insert(resolve(assembly, pair));
@@ -163,7 +170,7 @@ ParameterList contactsOf(const Assembly& assembly, const ParameterList& given, c
         .set("Second Surface", "face " + std::to_string(second.number));
     if (const double friction = automatic.get<double>("Friction"); friction > 0 && kind == "contact")
       contact.set("Friction", friction);
-    if (!isConforming(pair) && pair.area < 0.9 * first.area) // a ball: what is far apart stays so
+    if (isPoint(assembly, pair)) // what is far apart stays so
       contact.set("Distance", nearMissFactor * searchDistance);
   }
   notes += wordsOfPairs(assembly, pairs) + wordsOfNearMisses(assembly);

@@ -10,6 +10,9 @@
 
 namespace epafi::assembly {
 
+/// Whether faces touch in a point or line, about which the gap opens.
+bool isPoint(const Assembly& assembly, const FacePair& pair);
+
 /// Whether cylinders coincide, as bolts and nuts do that are drawn without threads.
 bool isThread(const Assembly& assembly, const FacePair& pair);
 

@@ -83,10 +83,9 @@ Assembly assemblyIn(const GmshSession& session, const std::string& file, const P
 
 Assembly readAssembly(const std::string& file, const PairSearch& search, const Comm& comm) {
   constexpr double sizeFactor = 1;
-  constexpr int elementsAround = 16;
   return assemblyFrom(meshing::textOnAllRanks(
       [&] {
-        return meshing::textOfGmsh(file, sizeFactor, elementsAround,
+        return meshing::textOfGmsh(file, sizeFactor, {},
                                    [&](const GmshSession& session, const std::string& saved) {
                                      std::ofstream(saved) << textOf(assemblyIn(session, file, search));
                                    });

@@ -8,6 +8,8 @@
 #include "epafi/base/Text.hpp"
 #include "epafi/meshing/MeshSource.hpp"
 
+#include <Teuchos_Array.hpp>
+
 namespace epafi::assembly {
 namespace {
 
@@ -15,6 +17,8 @@ using Teuchos::ParameterList;
 
 /// A sublist, or an empty one.
 ParameterList sublistOf(const ParameterList& list, const std::string& name) {
+  if (list.isParameter(name) && !list.isSublist(name))
+    throw InputError(inQuotes(name) + " is a parameter, but must be a list");
   return list.isSublist(name) ? list.sublist(name) : ParameterList(name);
 }
 
@@ -23,13 +27,38 @@ ParameterList automaticIn(const ParameterList& given, const std::string& where) 
                    where + ": list \"Contact/Automatic\"");
 }
 
-/// What is not under faces of the user's choice.
-void checkAssemblyList(ParameterList list, const std::string& where) {
-  ParameterList schema = assemblySchema();
-  for (const char* const name : {"Supports", "Forces", "Pressures"})
+/// Validated but for what stands under faces of the user's choice.
+ParameterList assemblyListIn(const ParameterList& given, const std::string& where) {
+  const ParameterList whole = sublistOf(given, "Assembly");
+  ParameterList list = whole, schema = assemblySchema(), lines;
+  for (const char* const name : {"Supports", "Forces", "Pressures"}) {
+    lines.sublist(name).setParameters(sublistOf(whole, name));
     for (ParameterList* const part : {&list, &schema})
       part->remove(name, false);
-  (void)validated(list, schema, where);
+  }
+  list = validated(list, schema, where + ": list \"Assembly\"");
+  list.setParameters(lines);
+  return list;
+}
+
+/// Of the elements, unless bodies say so themselves: for gaps of cylinders in bores, and where balls touch.
+void setSizes(const Assembly& assembly, const ParameterList& assemblyList, ParameterList& bodies) {
+  const int around = elementsAroundFor(assembly);
+  const auto size = assemblyList.get<double>("Contact Size");
+  Teuchos::Array<double> points;
+  for (const FacePair& pair : assembly.pairs)
+    if (size > 0 && isPoint(assembly, pair)) {
+      for (const double coordinate : pair.closest)
+        points.push_back(coordinate);
+      points.push_back(size);
+    }
+  for (auto body = bodies.begin(); body != bodies.end(); ++body) {
+    ParameterList& list = bodies.sublist(body->first);
+    if (around > meshing::StepSizes().elementsAround && !list.isParameter("Elements Around"))
+      list.set("Elements Around", around);
+    if (!points.empty() && !list.isParameter("Fine Points"))
+      list.set("Fine Points", points);
+  }
 }
 
 /// Adds the file's name to what is said of a part of it.
@@ -66,17 +95,13 @@ ParameterList pairsOf(const Assembly& assembly, const ParameterList& given, cons
 
 AssemblyScene sceneOf(const Assembly& assembly, const ParameterList& given, const std::string& mesh,
                       const std::string& where) {
-  const ParameterList assemblyList = sublistOf(given, "Assembly");
-  checkAssemblyList(assemblyList, where);
+  const ParameterList assemblyList = assemblyListIn(given, where);
   AssemblyScene result{given, overviewOf(assembly)};
   result.scene.remove("Assembly", false);
   ParameterList bodies = in(where, [&] {
     return bodiesOf(assembly, sublistOf(given, "Bodies"), assemblyList, mesh, result.notes);
   });
-  if (const int around = elementsAroundFor(assembly); around > meshing::MeshSource().elementsAround)
-    for (auto body = bodies.begin(); body != bodies.end(); ++body)
-      if (ParameterList& list = bodies.sublist(body->first); !list.isParameter("Elements Around"))
-        list.set("Elements Around", around);
+  setSizes(assembly, assemblyList, bodies);
   const ParameterList contacts = pairsOf(assembly, given, where, result.notes);
   for (const ParameterList& part : {bodies, contacts}) {
     result.scene.remove(part.name(), false);

@@ -29,13 +29,18 @@ ParameterList assemblySchema() {
             "What bodies are made of that say nothing else. A name stands for Young's Modulus (MPa), "
             "Poisson's Ratio and Expansion of the usual sort.",
             materialNames());
+  addReal(list, "Contact Size", 0.0,
+          "Size of the elements where faces touch in a point, a third of the radius that is in contact say; "
+          "0: as "
+          "elsewhere.",
+          0.0);
   list.sublist("Supports", false, "Where bodies are held.")
       .set("<face>", "",
            "Under the face in words, \"lug/plane -z\": \"fixed\"; \"xy\", these components; \"normal\", the "
            "face slides along itself; of a cylinder \"radial\", \"around\" or \"along\" its axis, one or "
            "more; "
-           "of another face \"around z\", a line through its centre. All bodies hold breath where around "
-           "alone is held. A corner is a face, too: \"lug/point 30 -7.5 0\".");
+           "of another face \"around z\", a line through its centre. What is held around alone "
+           "may breathe. A corner is a face, too: \"lug/point 30 -7.5 0\".");
   addArray(list.sublist("Forces", false, "Forces on faces."), "<face>", Teuchos::Array<double>(),
            "Under the face in words: the force on all of it in N, {x, y, z}, spread evenly; on all faces "
            "together where the words mean several.",

@@ -72,8 +72,8 @@ private:
   /// Gaps between points and what lies opposite on a face, negative where solids overlap; infinite if nothing
   /// does within reach.
   [[nodiscard]] std::vector<double> gapsOf(const std::vector<FacePoint>& points, int face) const;
-  /// The gap of least magnitude on a near a sample, in smaller and smaller steps.
-  [[nodiscard]] double leastGap(int a, int b, std::size_t sample, double gap) const;
+  /// Takes the gap of least magnitude, and its place, from a sample on in smaller and smaller steps.
+  void descend(const FacePair& pair, std::size_t sample, double& gap, Point& place) const;
 
   const GmshSession& session_;
   const Assembly& assembly_;
@@ -105,20 +105,24 @@ std::vector<double> FaceSearch::gapsOf(const std::vector<FacePoint>& points, int
   return gaps;
 }
 
-double FaceSearch::leastGap(int a, int b, std::size_t sample, double gap) const {
-  const int number = assembly_.faces[a].number;
-  double u = samples_[a]->parameters[2 * sample], v = samples_[a]->parameters[2 * sample + 1];
+void FaceSearch::descend(const FacePair& pair, std::size_t sample, double& gap, Point& place) const {
+  const int number = assembly_.faces[pair.first].number;
+  const Samples& samples = *samples_[pair.first];
+  double u = samples.parameters[2 * sample], v = samples.parameters[2 * sample + 1];
   constexpr int halvings = 12;
+  const double rounding = 1e-9 * distance_;
   for (double step = 0.5; step > std::pow(0.5, halvings);) {
     const double lastU = u, lastV = v;
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j) {
-        const double otherU = lastU + i * step * samples_[a]->du, otherV = lastV + j * step * samples_[a]->dv;
+        const double otherU = lastU + i * step * samples.du, otherV = lastV + j * step * samples.dv;
         if ((i == 0 && j == 0) || !session_.isInside(number, otherU, otherV))
           continue;
-        const double other = gapsOf(session_.pointsOf(number, {otherU, otherV}), b).front();
-        if (std::abs(other) < std::abs(gap)) {
+        const std::vector<FacePoint> point = session_.pointsOf(number, {otherU, otherV});
+        const double other = gapsOf(point, pair.second).front();
+        if (std::abs(other) < std::abs(gap) - rounding) {
           gap = other;
+          place = point.front().point;
           u = otherU;
           v = otherV;
         }
@@ -126,7 +130,6 @@ double FaceSearch::leastGap(int a, int b, std::size_t sample, double gap) const 
     if (u == lastU && v == lastV)
       step /= 2;
   }
-  return gap;
 }
 
 void FaceSearch::look(int a, int b, Assembly& result) {
@@ -144,7 +147,7 @@ void FaceSearch::look(int a, int b, Assembly& result) {
       points.push_back(point);
       places.push_back(i);
     }
-  FacePair pair{a, b, 0, infinity, -infinity};
+  FacePair pair{a, b, 0, infinity, -infinity, {}};
   const std::vector<double> gaps = gapsOf(points, b);
   double least = infinity, largest = 0;
   std::size_t closest = 0;
@@ -164,8 +167,9 @@ void FaceSearch::look(int a, int b, Assembly& result) {
   }
   if (std::isinf(least))
     return;
+  pair.closest = samples.points[closest].point;
   if (const double rounding = 1e-3 * distance_; largest - std::abs(least) > rounding)
-    least = leastGap(a, b, closest, least);
+    descend(pair, closest, least, pair.closest);
   pair.leastGap = std::min(pair.leastGap, least);
   pair.largestGap = std::max(pair.largestGap, least);
   (std::abs(least) <= distance_ ? result.pairs : result.nearMisses).push_back(pair);

@@ -73,6 +73,9 @@ struct Gmsh {
   decltype(&gmshModelGetPrincipalCurvatures) curvatures = Symbol{library, "gmshModelGetPrincipalCurvatures"};
   decltype(&gmshModelAddPhysicalGroup) addGroup = Symbol{library, "gmshModelAddPhysicalGroup"};
   decltype(&gmshModelSetPhysicalName) nameGroup = Symbol{library, "gmshModelSetPhysicalName"};
+  decltype(&gmshModelMeshFieldAdd) addField = Symbol{library, "gmshModelMeshFieldAdd"};
+  decltype(&gmshModelMeshFieldSetNumber) setFieldNumber = Symbol{library, "gmshModelMeshFieldSetNumber"};
+  decltype(&gmshModelMeshFieldSetNumbers) setFieldNumbers = Symbol{library, "gmshModelMeshFieldSetNumbers"};
   decltype(&gmshModelMeshSetSize) setSize = Symbol{library, "gmshModelMeshSetSize"};
 
   static const Gmsh& get() {

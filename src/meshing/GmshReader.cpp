@@ -82,7 +82,7 @@ std::string textOfDeck(const std::string& file) {
 
 } // namespace
 
-std::string textOfGmsh(const std::string& file, double meshSizeFactor, int elementsAround,
+std::string textOfGmsh(const std::string& file, double meshSizeFactor, const StepSizes& sizes,
                        const std::function<void(const GmshSession&, const std::string&)>& run) {
   checkFile(file);
   loadGmsh();
@@ -90,7 +90,7 @@ std::string textOfGmsh(const std::string& file, double meshSizeFactor, int eleme
   inChildProcess(
       [&] {
         const GmshSession session(file);
-        session.open(meshSizeFactor, elementsAround);
+        session.open(meshSizeFactor, sizes);
         run(session, folder.file());
       },
       "Gmsh, at work on the mesh file " + inQuotes(file) + ',',
@@ -99,8 +99,7 @@ std::string textOfGmsh(const std::string& file, double meshSizeFactor, int eleme
 }
 
 std::string textOfGeometry(const std::string& file, double meshSizeFactor, const mesh::SizeField& sizes) {
-  constexpr int unused = 16; // sizes say all
-  return textOfGmsh(file, meshSizeFactor, unused, [&](const GmshSession& session, const std::string& saved) {
+  return textOfGmsh(file, meshSizeFactor, {}, [&](const GmshSession& session, const std::string& saved) {
     if (session.isDiscrete())
       return;
     session.meshWith(sizes);
@@ -109,14 +108,13 @@ std::string textOfGeometry(const std::string& file, double meshSizeFactor, const
 }
 
 std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements, int order,
-                           int elementsAround) {
+                           const StepSizes& sizes) {
   const auto meshed = [&] {
-    return textOfGmsh(file, meshSizeFactor, elementsAround,
-                      [&](const GmshSession& session, const std::string& saved) {
-                        session.mesh(refinements, order);
-                        session.requireKnown();
-                        session.save(saved);
-                      });
+    return textOfGmsh(file, meshSizeFactor, sizes, [&](const GmshSession& session, const std::string& saved) {
+      session.mesh(refinements, order);
+      session.requireKnown();
+      session.save(saved);
+    });
   };
   if (isGeometry(file))
     return meshed();

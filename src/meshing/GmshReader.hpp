@@ -18,7 +18,7 @@ namespace epafi::meshing {
 
 /// Text of the file that `run` writes while a session has `file` open, under the name that it is given; empty
 /// if it writes none. \throws as textOfMeshFile, and what `run` throws
-std::string textOfGmsh(const std::string& file, double meshSizeFactor, int elementsAround,
+std::string textOfGmsh(const std::string& file, double meshSizeFactor, const StepSizes& sizes,
                        const std::function<void(const GmshSession&, const std::string&)>& run);
 
 /// Text that readMsh() takes; not of several files (isSplit()). A .geo is meshed unless it makes elements
@@ -32,9 +32,9 @@ std::string textOfGmsh(const std::string& file, double meshSizeFactor, int eleme
 /// nodes on curved borders lie on the geometry if the file has one
 /// \param order  of the elements that Gmsh makes, 1 or 2: those of order 2 are curved where the geometry is;
 /// 0: as the file has it. A .msh that need not be refined is not changed
-/// \param elementsAround  of a STEP file: around a circle
+/// \param sizes  of a STEP file
 std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, int refinements = 0,
-                           int order = 0, int elementsAround = 16);
+                           int order = 0, const StepSizes& sizes = {});
 
 /// Of a geometry, meshed anew in triangles or tetrahedra of order 2: with these sizes, whatever it says of
 /// sizes. Numbers of elements that it gives itself stay (Gmsh's own kernel keeps transfinite curves, layers

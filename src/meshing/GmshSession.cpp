@@ -1,7 +1,6 @@
 #include "epafi/meshing/GmshLibrary.hpp"
 
 #include "epafi/base/Text.hpp"
-#include "epafi/meshing/MeshSource.hpp"
 #include "epafi/meshing/MshReader.hpp"
 
 #include <string_view>
@@ -107,11 +106,13 @@ void GmshSession::check(int error) const {
                    " cannot be read: Gmsh says: " + asSentence(shortened(text)));
 }
 
-void GmshSession::open(double meshSizeFactor, int elementsAround) const {
+void GmshSession::open(double meshSizeFactor, const StepSizes& sizes) const {
   call(Gmsh::get().setNumber, "Mesh.MeshSizeFactor", meshSizeFactor);
   call(Gmsh::get().open, file_.c_str());
-  if (isStep(file_))
-    nameShapes(elementsAround);
+  if (!isStep(file_))
+    return;
+  nameShapes();
+  setStepSizes(sizes);
 }
 
 bool GmshSession::isDiscrete() const {

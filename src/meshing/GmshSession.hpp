@@ -4,6 +4,7 @@
 
 #include "epafi/mesh/Box.hpp"
 #include "epafi/mesh/SizeField.hpp"
+#include "epafi/meshing/MeshSource.hpp"
 
 #include <array>
 #include <optional>
@@ -25,9 +26,9 @@ public:
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  /// \param elementsAround  of a STEP file: how many elements are to go around a circle. Its solids become
-  /// groups, called as solidNames() says, its faces and corners "face 1" and "point 1", and so on.
-  void open(double meshSizeFactor, int elementsAround = 16) const;
+  /// The solids of a STEP file become groups, called as solidNames() says, its faces and corners "face 1" and
+  /// "point 1", and so on. \param sizes  of such a file
+  void open(double meshSizeFactor, const StepSizes& sizes = {}) const;
   /// Whether the shape of anything is that of a mesh: of an STL file, or of a mesh that the geometry merges.
   /// Without that mesh it has none.
   [[nodiscard]] bool isDiscrete() const;
@@ -73,7 +74,8 @@ public:
   [[nodiscard]] Curvature curvatureOf(int face, double u, double v) const;
 
 private:
-  void nameShapes(int elementsAround) const;
+  void nameShapes() const;
+  void setStepSizes(const StepSizes& sizes) const;
   [[nodiscard]] std::vector<int> elementTypes(int dimension) const;
   /// Throws if Gmsh has told of an error.
   void check(int error) const;

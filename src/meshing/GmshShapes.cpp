@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace epafi::meshing {
 namespace {
@@ -170,35 +171,66 @@ GmshSession::Curvature GmshSession::curvatureOf(int face, double u, double v) co
   return {std::max(first, second), std::min(first, second), {direction[0], direction[1], direction[2]}};
 }
 
-/// Elements of a solid are at most ¾ of twice its volume over its surface, the thickness of a plate.
-void GmshSession::nameShapes(int elementsAround) const {
-  const Gmsh& gmsh = Gmsh::get();
+void GmshSession::nameShapes() const {
   const std::vector<int> numbers = solids();
   if (numbers.empty())
     throw InputError("The file \"" + file_ + "\" has no solid; only bodies that fill space can be solved");
   const std::vector<std::string> names = solidNames();
   const auto group = [&](int dimension, int number, const std::string& name) {
     int error = 0;
-    const int tag = gmsh.addGroup(dimension, &number, 1, -1, &error);
+    const int tag = Gmsh::get().addGroup(dimension, &number, 1, -1, &error);
     check(error);
-    call(gmsh.nameGroup, dimension, tag, name.c_str());
+    call(Gmsh::get().nameGroup, dimension, tag, name.c_str());
   };
   for (std::size_t s = 0; s < numbers.size(); ++s) {
     group(3, numbers[s], names[s]);
-    double area = 0;
-    for (const int face : boundaryOf(numbers[s], 2)) {
+    for (const int face : boundaryOf(numbers[s], 2))
       group(2, face, "face " + std::to_string(face));
-      area += measureOf(2, face);
-    }
-    std::vector<int> corners;
-    for (const int corner : boundaryOf(numbers[s], 0)) {
+    for (const int corner : boundaryOf(numbers[s], 0))
       group(0, corner, "point " + std::to_string(corner));
-      corners.insert(corners.end(), {0, corner});
-    }
-    call(gmsh.setSize, corners.data(), corners.size(), 1.5 * measureOf(3, numbers[s]) / area);
   }
-  call(gmsh.setNumber, "Mesh.MeshSizeFromCurvature", elementsAround);
+}
+
+/// Elements of a solid are at most 0.9 times twice its volume over its surface, the thickness of a plate.
+void GmshSession::setStepSizes(const StepSizes& sizes) const {
+  const Gmsh& gmsh = Gmsh::get();
+  for (const int solid : solids()) {
+    double area = 0;
+    for (const int face : boundaryOf(solid, 2))
+      area += measureOf(2, face);
+    std::vector<int> corners;
+    for (const int corner : boundaryOf(solid, 0))
+      corners.insert(corners.end(), {0, corner});
+    call(gmsh.setSize, corners.data(), corners.size(), 1.8 * measureOf(3, solid) / area);
+  }
+  call(gmsh.setNumber, "Mesh.MeshSizeFromCurvature", sizes.elementsAround);
   call(gmsh.setNumber, "General.NumThreads", 1);
+  const auto field = [&](const char* kind) {
+    int error = 0;
+    const int tag = gmsh.addField(kind, -1, &error);
+    check(error);
+    return tag;
+  };
+  std::vector<double> balls;
+  for (std::size_t i = 0; i + 3 < sizes.finePoints.size(); i += 4) {
+    const double size = sizes.finePoints[i + 3], coarse = 100 * size, growth = 0.5;
+    const int ball = field("Ball");
+    const std::pair<const char*, double> values[] = {{"XCenter", sizes.finePoints[i]},
+                                                     {"YCenter", sizes.finePoints[i + 1]},
+                                                     {"ZCenter", sizes.finePoints[i + 2]},
+                                                     {"Radius", 4 * size},
+                                                     {"VIn", size},
+                                                     {"VOut", coarse},
+                                                     {"Thickness", (coarse - size) / growth}};
+    for (const auto& [name, value] : values)
+      call(gmsh.setFieldNumber, ball, name, value);
+    balls.push_back(ball);
+  }
+  if (balls.empty())
+    return;
+  const int least = field("Min");
+  call(gmsh.setFieldNumbers, least, "FieldsList", balls.data(), balls.size());
+  call(gmsh.setBackground, least);
 }
 
 } // namespace epafi::meshing

@@ -4,9 +4,20 @@
 #include "epafi/mesh/MeshOrder.hpp"
 
 #include <array>
+#include <compare>
 #include <string>
+#include <vector>
 
 namespace epafi::meshing {
+
+/// How small the elements of a STEP file are, where its solids are not thin.
+struct StepSizes {
+  int elementsAround = 16; ///< a circle
+  /// x, y and z of points, and the size of elements there: it grows by half the distance
+  std::vector<double> finePoints{};
+
+  auto operator<=>(const StepSizes&) const = default;
+};
 
 /// Where the elements come from: a structured box, or a file.
 struct MeshSource {
@@ -14,7 +25,7 @@ struct MeshSource {
   std::array<int, 3> elements{0, 0, 0}; ///< in x, y and z (z: 0 in the plane); of a structured mesh
   std::string file;                     ///< if not empty, a file that Gmsh reads, or several
   double sizeFactor = 1;                ///< by which all element sizes of a geometry are multiplied
-  int elementsAround = 16;              ///< elements around a circle; of a STEP file
+  StepSizes stepSizes;                  ///< of a STEP file
   int refinements = 0;                  ///< how often every element of the file is split
   int order = 1;                        ///< of the elements, 1 or 2; 0: as the mesh file has it
   mesh::InnerNodes innerNodes = mesh::InnerNodes::added; ///< of elements of order 2 from a file

@@ -20,11 +20,11 @@ namespace epafi::model {
 namespace {
 
 /// Meshes from files by file, factor of mesh sizes, refinements, the order that Gmsh is to give them, and
-/// elements around a circle.
-using MeshFiles = std::map<std::tuple<std::string, double, int, int, int>, meshing::GmshFile>;
+/// sizes of a STEP file.
+using MeshFiles = std::map<std::tuple<std::string, double, int, int, meshing::StepSizes>, meshing::GmshFile>;
 
 MeshFiles::key_type keyOf(const meshing::MeshSource& source) {
-  return {source.file, source.sizeFactor, source.refinements, source.order, source.elementsAround};
+  return {source.file, source.sizeFactor, source.refinements, source.order, source.stepSizes};
 }
 
 /// The mesh files of a scene, each read once. Collective.
@@ -36,7 +36,7 @@ MeshFiles readMeshFiles(const scene::Scene& scene, const Comm& comm) {
       continue;
     const auto makeText = [&] {
       return meshing::textOfMeshFile(source.file, source.sizeFactor, source.refinements, source.order,
-                                     source.elementsAround);
+                                     source.stepSizes);
     };
     files.emplace(keyOf(source), meshing::meshOnAllRanks(source.file, makeText, comm));
   }

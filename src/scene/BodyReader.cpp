@@ -67,9 +67,14 @@ meshing::MeshSource readMesh(const ListReader& list, int dimension) {
     if (!meshing::isGeometry(source.file))
       list.refuseGiven({"Mesh Size Factor"},
                        "only a geometry (.geo, .step) is meshed in a size of your choice");
-    source.elementsAround = list.integer("Elements Around");
+    source.stepSizes = {list.integer("Elements Around"), list.reals("Fine Points")};
+    for (std::size_t i = 3; i < source.stepSizes.finePoints.size(); i += 4)
+      if (!(source.stepSizes.finePoints[i] > 0))
+        list.refuseValue("Fine Points", "sizes, each fourth number, must be positive");
+    if (source.stepSizes.finePoints.size() % 4 != 0)
+      list.refuseValue("Fine Points", "must have four numbers a point, {x, y, z, size, ...}");
     if (!meshing::isStep(source.file))
-      list.refuseGiven({"Elements Around"}, "it is for STEP files; a .geo sets Mesh.MeshSizeFromCurvature");
+      list.refuseGiven({"Elements Around", "Fine Points"}, "it is for STEP files; a .geo says its own sizes");
     source.refinements = list.integer("Mesh Refinements");
     if (meshing::isSplit(source.file)) {
       if (!source.file.ends_with(".msh"))
@@ -85,8 +90,9 @@ meshing::MeshSource readMesh(const ListReader& list, int dimension) {
     source.order = list.has("Order") || meshing::isGeometry(source.file) ? list.integer("Order") : 0;
     return source;
   }
-  list.refuseGiven({"Group", "Mesh Size Factor", "Elements Around", "Mesh Refinements", "Inner Nodes"},
-                   "the body has no mesh file that it could apply to");
+  list.refuseGiven(
+      {"Group", "Mesh Size Factor", "Elements Around", "Fine Points", "Mesh Refinements", "Inner Nodes"},
+      "the body has no mesh file that it could apply to");
   list.refuseGiven({dimension == 3 ? "Rectangle" : "Box"},
                    "a body in " +
                        std::string(dimension == 3 ? "space has a \"Box\"" : "the plane has a \"Rectangle\""));

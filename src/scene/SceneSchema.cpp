@@ -98,8 +98,13 @@ void describeMesh(ParameterList& list) {
   addReal(list, "Mesh Size Factor", meshing::MeshSource().sizeFactor,
           "With a .geo or STEP file: by which all its mesh sizes are multiplied; 0.5 halves the elements.",
           0.0, infinity, true);
-  addInteger(list, "Elements Around", meshing::MeshSource().elementsAround,
+  addInteger(list, "Elements Around", meshing::StepSizes().elementsAround,
              "With a STEP file: how many elements go around a circle, before the factor.", 4, 1000);
+  addArray(
+      list, "Fine Points", Array<double>(),
+      "With a STEP file: {x, y, z, size, ...}, points and the size of elements there, which grows by half "
+      "the distance.",
+      "size > 0");
   addInteger(
       list, "Mesh Refinements", meshing::MeshSource().refinements,
       "With a mesh file: how many times every element is split, into 4 in the plane and into 8 in space.", 0,

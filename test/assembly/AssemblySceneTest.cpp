@@ -145,6 +145,18 @@ TEST(AssemblySceneTest, AsksForMoreElementsAroundWhereTheGapIsSmall) {
             0.01 * 0.02); // sag below 1 % of the overlap
 }
 
+TEST(AssemblySceneTest, RefinesWhereABallTouches) {
+  ParameterList given = ofSteel();
+  given.sublist("Assembly").set("Contact Size", 0.1);
+  const ParameterList bodies = made("ball_socket", given).scene.sublist("Bodies");
+  const auto points = bodies.sublist("lid").get<Teuchos::Array<double>>("Fine Points");
+  const std::vector<double> poles{0, 0, -6, 0.1, 0, 0, 14, 0.1};
+  ASSERT_EQ(points.size(), std::ssize(poles));
+  for (int i = 0; i < std::ssize(poles); ++i)
+    EXPECT_NEAR(points[i], poles[i], 0.02); // the gap is flat there
+  EXPECT_FALSE(made("pin_in_lug", given).scene.sublist("Bodies").sublist("pin").isParameter("Fine Points"));
+}
+
 TEST(AssemblySceneTest, RefusesWhatItCannotTell) {
   const auto said = [](const char* name, const ParameterList& given) {
     return refusal([&] { (void)made(name, given); });
@@ -161,6 +173,15 @@ TEST(AssemblySceneTest, RefusesWhatItCannotTell) {
   given = ofSteel();
   given.sublist("Assembly").sublist("Forces").set("lower block/plane -z", 5.0);
   expectSays(said("blocks", given), {"Array(double) {x, y, z}"});
+  given = ofSteel();
+  given.sublist("Contact").set("hand", 1.0);
+  expectSays(said("blocks", given), {"\"hand\"", "one a pair"});
+  given = ofSteel();
+  given.set("Bodies", 1.0);
+  expectSays(said("blocks", given), {"\"Bodies\" is a parameter, but must be a list"});
+  given = ofSteel();
+  given.sublist("Assembly").set("Contact Size", -1.0);
+  expectSays(said("blocks", given), {"Assembly", "\"Contact Size\""});
   given = ofSteel();
   given.sublist("Contact").sublist("hand").set("First Body", "lower block").set("First Surface", "plane");
   expectSays(said("blocks", given), {"several faces"});

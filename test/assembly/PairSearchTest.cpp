@@ -2,6 +2,9 @@
 #include "support/Refusal.hpp"
 #include "support/TemporaryDirectory.hpp"
 
+#include "epafi/meshing/GmshFile.hpp"
+#include "epafi/meshing/GmshReader.hpp"
+
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -128,6 +131,32 @@ TEST(PairSearchUnitsTest, OfInchesAndMetresAreThoseOfMillimetres) {
 TEST(PairSearchDistanceTest, TakesNearMissesIn) {
   const Assembly shanks = readAssembly(test::stepFile("bracket"), {0.6, 45}, *Tpetra::getDefaultComm());
   EXPECT_EQ(shanks.pairs.size(), 7 + 4);
+}
+
+/// The mesh that goes with the faces' numbers.
+TEST(StepMeshTest, HasSolidsAndFacesByNameAndIsFineWhereItIsAskedToBe) {
+  const std::string file = test::stepFile("blocks");
+  const auto blocksOf = [&](const meshing::StepSizes& sizes) {
+    return meshing::GmshFile(meshing::readMsh(file, meshing::textOfMeshFile(file, 1, 0, 2, sizes)))
+        .body("upper block");
+  };
+  const mesh::UnstructuredMesh coarse = blocksOf({}), fine = blocksOf({16, {0, 0, 20, 0.4}});
+  for (const mesh::UnstructuredMesh* const block : {&coarse, &fine}) {
+    const std::vector<std::string> names = block->surfaceNames();
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
+              (std::set<std::string>{"face 7", "face 8", "face 9", "face 10", "face 11", "face 12"}));
+  }
+  const auto numNear = [](const mesh::UnstructuredMesh& block) {
+    int number = 0;
+    for (GlobalOrdinal node = 0; node < block.numNodes(); ++node) {
+      const Point at = block.point(node);
+      number += static_cast<int>(std::hypot(at[0], at[1], at[2] - 20) < 1.2);
+    }
+    return number;
+  };
+  EXPECT_LE(numNear(coarse), 2);
+  EXPECT_GT(numNear(fine), 50); // half a ball of 3.6 mm³, some 0.005 mm³ an element
+  EXPECT_LT(fine.numNodes(), 10 * coarse.numNodes());
 }
 
 TEST(PairSearchFileTest, ThatIsNoneIsRefused) {

@@ -49,6 +49,18 @@ SHRINK_FIT = """<ParameterList name="Shrink fit">
   </ParameterList>
 </ParameterList>"""
 
+BALL = """<ParameterList name="Ball in a socket">
+  <ParameterList name="Assembly">
+    <Parameter name="Material" type="string" value="steel"/>
+    <ParameterList name="Supports">
+      <Parameter name="base/plane -z" type="string" value="fixed"/>
+      <Parameter name="lid/plane +x" type="string" value="x"/> <Parameter name="lid/plane +y" type="string" value="y"/>
+      <Parameter name="ball/sphere" type="string" value="around z"/> <Parameter name="ball/point 0 0 -6" type="string" value="xy"/>
+    </ParameterList>
+    <ParameterList name="Pressures"><Parameter name="lid/plane +z" type="double" value="0.3125"/></ParameterList>
+  </ParameterList>
+</ParameterList>"""
+
 
 def step(name):
     return SOURCE / "test/assembly" / f"{name}.step"
@@ -99,6 +111,11 @@ class Assemblies(unittest.TestCase):
         k = (40**2 + 19.98**2) / (40**2 - 19.98**2)
         expected = 0.02 * 210000 / (20 * (1 - 0.3) + 19.98 * (k + 0.3))
         self.assertAlmostEqual(found["Force"][0] / (2 * math.pi * 19.98 * 20), expected, delta=0.005 * expected)
+
+    def test_a_ball_that_is_held_against_turning_carries_what_presses_its_lid(self):
+        for pair in ("ball - lid", "base - ball"):
+            found = self.contact("ball_socket", BALL, pair)
+            self.assertAlmostEqual(abs(found["Resultant"][2]), 500, delta=500 * 1e-6)
 
     def test_pairs_that_are_printed_can_be_pasted(self):
         printed = run(step("blocks"), "--print-pairs")
