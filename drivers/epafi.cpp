@@ -16,7 +16,6 @@
 #include "epafi/base/Parameters.hpp"
 #include "epafi/base/Version.hpp"
 #include "epafi/output/AtomicFile.hpp"
-#include "epafi/scene/ParameterFile.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
