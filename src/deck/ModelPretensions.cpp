@@ -31,7 +31,7 @@ ModelMaker::Cut ModelMaker::cutAt(const Pretension& pretension) const {
   }
   for (const DeckBody& body : bodies_.all())
     for (const GlobalOrdinal element : body.elements)
-      for (int label = 1; label <= std::ssize(body.type->faces); ++label) {
+      for (int label = 1; label <= std::ssize(bodies_.typeOf(element).faces); ++label) {
         const auto found = elementAt.find(cornersOf(element, label));
         if (found == elementAt.end() || found->second == element)
           continue;
@@ -43,7 +43,7 @@ ModelMaker::Cut ModelMaker::cutAt(const Pretension& pretension) const {
       }
   if (own.size() != 1 || across.size() != 1 || own == across)
     refuse(pretension, "the faces of " + pretension.surface +
-                           " do not part one body of elements of one type into two; let the section go "
+                           " do not part one body into two; let the section go "
                            "through the whole shank, all faces on its one side");
   cut.first = *own.begin();
   cut.second = *across.begin();
