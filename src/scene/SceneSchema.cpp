@@ -64,25 +64,15 @@ void describeMesh(ParameterList& list) {
       list, "Elements", Array<int>(),
       "Number of elements {nx, ny} in x and y, in space {nx, ny, nz}; required unless there is a mesh file.",
       counts);
-<<<<<<< HEAD
   list.set(
       "Mesh", "",
-      "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) instead; relative to the scene's "
-      "directory. Triangles and quadrilaterals, tetrahedra, hexahedra, prisms and pyramids, one or several "
+      "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) or a STEP file instead; relative to "
+      "the scene's directory. Triangles and quadrilaterals, tetrahedra, hexahedra, prisms and pyramids, one "
+      "or several "
       "of them in a body, linear or quadratic. A name with "
       "* (press_*.msh) "
       "stands for the files that Gmsh saves of a partitioned mesh (gmsh -part 64 -part_split); ranks "
       "read them side by side.");
-=======
-  list.set("Mesh", "",
-           "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) or a STEP file instead; relative "
-           "to the "
-           "scene's "
-           "directory. Triangles, quadrilaterals, tetrahedra or hexahedra, linear or quadratic. A name with "
-           "* (press_*.msh) "
-           "stands for the files that Gmsh saves of a partitioned mesh (gmsh -part 64 -part_split); ranks "
-           "read them side by side.");
->>>>>>> 5692a52 (Assemblies of CAD: bodies, faces in words and pairs of a STEP file, found on the exact surfaces; a few lines of XML complete it)
   addInteger(
       list, "Order", bestOrder,
       "Order of the elements: linear or quadratic. Of a mesh file (.msh) its own order counts if none is "
