@@ -58,7 +58,7 @@ ModelMaker::ModelMaker(const Deck& deck, std::string mesh)
     if (step.isNonlinear) {
       model_.notes.push_back(text(step.place) +
                              ": NLGEOM: displacements are taken to be small; if strains or rotations turn "
-                             "out to be above a tenth the run ends with code 1");
+                             "out to be above a fifth the run ends with code 1");
       model_.scene.sublist("Accuracy").set("Small Displacements", true);
       break;
     }

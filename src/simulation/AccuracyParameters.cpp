@@ -23,8 +23,8 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
       "Whether the discretisation error is estimated at the end, in the energy norm, by a recovered flux "
       "(Zienkiewicz, Zhu 1987).");
   list.set("Small Displacements", defaults.requiresSmall,
-           "Whether a run whose strains or rotations are above a tenth (10 %, 5.7°), so that small "
-           "displacements are no good model, ends with code 1 and not just with a doubt.");
+           "Whether a run whose strains or rotations are above a fifth (20 %, 11°), so that small "
+           "displacements are no model, ends with code 1. Above a tenth there is a doubt in any case.");
   addInteger(list, "Coarser Start", static_cast<int>(defaults.coarserFrom),
              "Without a target: elastic scenes with contact and so many unknowns or more look for the "
              "contact zone on a coarser mesh "

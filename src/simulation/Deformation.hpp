@@ -14,9 +14,9 @@ struct Deformation {
   double strain = 0;   ///< a principal one's magnitude, of (∇u + ∇uᵀ)/2
   double rotation = 0; ///< of the material, in radians: the length of ½ rot u
 
-  /// Beyond a tenth either is as large as what the theory leaves out: a rotation by 0.1 makes strains of
-  /// 0.005, and forces are off by a tenth of what they are across.
-  [[nodiscard]] bool isSmall() const { return strain <= 0.1 && rotation <= 0.1; }
+  static constexpr double doubtful = 0.1; ///< from there on strains of ½ % and forces by a tenth are left out
+  static constexpr double large = 0.2;    ///< from there on strains of 2 %: the theory does not hold
+  [[nodiscard]] bool isAbove(double limit) const { return strain > limit || rotation > limit; }
 };
 
 /// "strain 0.12 %, rotation 0.3°".

@@ -206,10 +206,10 @@ double ErrorResult::relative() const {
   return whole > 0 ? absolute / whole : 0;
 }
 
-std::string largeDeformations(const RunResult& result) {
+std::string largeDeformations(const RunResult& result, double limit) {
   std::string large;
   for (const BodyResult& body : result.bodies)
-    if (!body.deformation.isSmall())
+    if (body.deformation.isAbove(limit))
       large += (large.empty() ? "" : "; ") + body.name + ": " + inWords(body.deformation);
   return large.empty() ? large
                        : "displacements are taken to be small, and are not (" + large +
@@ -217,7 +217,7 @@ std::string largeDeformations(const RunResult& result) {
 }
 
 void requireSmall(RunResult& result) {
-  const std::string large = largeDeformations(result);
+  const std::string large = largeDeformations(result, Deformation::large);
   if (large.empty() || result.status != RunStatus::converged)
     return;
   result.status = RunStatus::largeDisplacements;

@@ -103,10 +103,10 @@ struct RunResult {
   std::string reason; ///< one sentence
 };
 
-/// A sentence on the bodies whose displacements are not small (Deformation::isSmall); empty if there is none.
-std::string largeDeformations(const RunResult& result);
+/// A sentence on the bodies that are deformed or turned by more than a limit; empty if there is none.
+std::string largeDeformations(const RunResult& result, double limit);
 
-/// Has a run that converged fail with this sentence.
+/// Has a run that converged fail with this sentence where displacements are large (Deformation::large).
 void requireSmall(RunResult& result);
 
 /// "Converged", "TargetMissed", "Interrupted", "Running", or what the iteration ended with.

@@ -202,7 +202,7 @@ void evaluateRun(SceneRun& run) {
   result.times.recovery =
       run.solver->times().recovery + maxOverRanks(solved.comm(), Teuchos::Time::wallTime() - began);
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
-  if (const std::string large = largeDeformations(result); !large.empty())
+  if (const std::string large = largeDeformations(result, Deformation::doubtful); !large.empty())
     result.doubts += (result.doubts.empty() ? "" : ". ") + large;
 }
 

@@ -65,7 +65,7 @@ struct SceneRun {
 /// What a run can start from and what it is to tell.
 struct RunOptions {
   bool estimatesError = false;
-  bool requiresSmall = false;    ///< displacements, see Deformation::isSmall; else they leave a doubt
+  bool requiresSmall = false;    ///< displacements, see Deformation::large; else they leave a doubt
   QuantityParameters quantity{}; ///< needs the estimate, and has it made
   const SceneRun* coarser =
       nullptr;              ///< the same scene on a coarser mesh: its solution is where this run starts

@@ -70,7 +70,7 @@ TEST_F(EvaluationTest, StrainAndRotationOfALinearDisplacementAreExact) {
       const Deformation deformation = largestDeformation({scene, decomposition, solution}, 1);
       EXPECT_NEAR(deformation.strain, size * shear / 2, 1e-12);
       EXPECT_NEAR(deformation.rotation, size * (turn - shear / 2), 1e-12);
-      EXPECT_EQ(deformation.isSmall(), size < 1);
+      EXPECT_EQ(deformation.isAbove(Deformation::doubtful), size == 1);
     }
 }
 
