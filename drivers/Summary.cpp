@@ -139,6 +139,28 @@ void describeError(std::ostream& text, const simulation::ErrorResult& error) {
     text << "that of the iteration not measured without preconditioner";
 }
 
+/// Energies below and above the exact one, and what takes how much of the distance.
+void describeBound(std::ostream& text, const accuracy::EnergyBound& bound) {
+  text << "\n  bound       ";
+  if (!bound.failure.empty()) {
+    text << "not guaranteed: " << bound.failure;
+    return;
+  }
+  const double width = bound.upper - bound.lower;
+  const auto part = [&](double value, const char* name) {
+    constexpr double worthSaying = 5e-5;
+    if (value > worthSaying * width)
+      text << ", " << percent(value / width) << ' ' << name;
+  };
+  text << "energy between " << scientific(bound.lower, 9) << " and " << scientific(bound.upper, 9) << " ("
+       << percent(width / std::abs(bound.upper)) << "), error at most " << percent(bound.relative())
+       << " of the energy norm, guaranteed on the meshed bodies"
+       << "\n              of the distance " << percent(bound.discretisation / width) << " discretisation";
+  part(bound.contact, "contact");
+  part(bound.oscillation, "oscillation of loads");
+  part(bound.roundOff, "round-off (estimated)");
+}
+
 void describeAccuracy(std::ostream& text, const RunResult& result) {
   std::ostringstream asked;
   if (result.solve.plan.isBalanced)
@@ -152,6 +174,8 @@ void describeAccuracy(std::ostream& text, const RunResult& result) {
     text << ", equilibrium " << scientific(result.equilibrium, 2);
   if (result.error)
     describeError(text, *result.error);
+  if (result.bound)
+    describeBound(text, *result.bound);
   if (!result.doubts.empty())
     text << "\n  doubts      " << result.doubts;
   if (result.quantity)

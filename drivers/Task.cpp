@@ -19,6 +19,8 @@ void requireOneOfBoth(const std::string& file, const Task& task) {
     throw InputError(file +
                      ": a deck is solved on its own mesh: finer ones would not have its groups of nodes; "
                      "leave out the target, or refine the deck where it comes from.");
+  if (!task.steps.empty() && accuracy.bound)
+    throw InputError(file + ": guaranteed bounds are not there for load steps; leave out \"Bound\".");
   if (!task.steps.empty() &&
       (accuracy.target > 0 || accuracy.quantity.kind != simulation::QuantityParameters::Kind::none))
     throw InputError(file +
@@ -43,6 +45,7 @@ simulation::SceneRun solveTask(const Task& task, const RCP<const Comm>& comm,
   const simulation::AccuracyParameters& accuracy = task.accuracy;
   const simulation::RunOptions options{.estimatesError = accuracy.estimate,
                                        .requiresSmall = accuracy.requiresSmall,
+                                       .bound = accuracy.bound,
                                        .quantity = accuracy.quantity,
                                        .facts = {.coarserFrom = accuracy.coarserFrom},
                                        .companion = companion,

@@ -11,7 +11,7 @@
 namespace epafi::simulation {
 namespace {
 
-const std::vector<std::string> refinements{"local", "even"};
+const std::vector<std::string> refinements{"local", "even"}, boundKinds{"none", "guaranteed"};
 
 } // namespace
 
@@ -25,6 +25,12 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
   list.set("Small Displacements", defaults.requiresSmall,
            "Whether a run whose strains or rotations are above a fifth (20 %, 11°), so that small "
            "displacements are no model, ends with code 1. Above a tenth there is a doubt in any case.");
+  addChoice(
+      list, "Bound", boundKinds.front(),
+      "guaranteed: the exact energy is bounded from both sides, and with it the error in the energy norm, "
+      "by a displacement that does not penetrate and a stress in balance with the loads. Membranes, plane "
+      "strain and plane stress, contact node by node without friction.",
+      boundKinds);
   addInteger(list, "Coarser Start", static_cast<int>(defaults.coarserFrom),
              "Without a target: elastic scenes with contact and so many unknowns or more look for the "
              "contact zone on a coarser mesh "
@@ -67,6 +73,7 @@ AccuracyParameters AccuracyParameters::from(const Teuchos::ParameterList& list) 
   AccuracyParameters parameters;
   parameters.estimate = list.get<bool>("Estimate Error");
   parameters.requiresSmall = list.get<bool>("Small Displacements");
+  parameters.bound = list.get<std::string>("Bound") == boundKinds.back();
   if (const int unknowns = list.get<int>("Coarser Start"); unknowns > 0)
     parameters.coarserFrom = unknowns;
   else

@@ -19,6 +19,7 @@ struct AccuracyParameters {
   bool requiresSmall = false; ///< whether a run that ends with large strains or rotations has failed
   GlobalOrdinal coarserFrom =
       12000;                   ///< unknowns from which on a coarser mesh is looked at first, without a target
+  bool bound = false;          ///< whether to bound energy and error from both sides
   QuantityParameters quantity; ///< in place of the energy norm
   double target = 0;           ///< of the relative error; 0: as accurate as the scene's mesh
   Refinement refinement = Refinement::local;

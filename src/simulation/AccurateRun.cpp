@@ -52,6 +52,8 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
   const bool locks = std::any_of(scene.bodies.begin(), scene.bodies.end(), accuracy::locks);
   const int order = accuracy.order == 0 && locks ? 2 : accuracy.order; // estimates of order 1 know too little
   const std::unique_ptr<SceneLevels> levels = levelsOf(scene, solverParameters, accuracy, comm, companion);
+  if (accuracy.bound)
+    levels->boundEnergies();
   AccurateRun result;
   LoopResult soFar;
   soFar.reason = "the run went on with the next mesh; if it is not under way any more it was killed";

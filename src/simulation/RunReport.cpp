@@ -75,6 +75,24 @@ void enterAccuracy(const RunResult& result, ParameterList& list) {
     list.set("Doubts", result.doubts);
 }
 
+void enterBound(const accuracy::EnergyBound& bound, ParameterList& list) {
+  list.set("Imbalance", bound.imbalance);
+  if (!bound.failure.empty()) {
+    list.set("Reason", bound.failure);
+    return;
+  }
+  list.set("Lower Energy", bound.lower)
+      .set("Upper Energy", bound.upper)
+      .set("Error", bound.error)
+      .set("Relative Error", bound.relative())
+      .set("Discretisation", bound.discretisation)
+      .set("Contact", bound.contact)
+      .set("Oscillation", bound.oscillation)
+      .set("Round-off", bound.roundOff)
+      .set("Correction", bound.correction)
+      .set("Steps", bound.steps);
+}
+
 void enterQuantity(const Quantity& quantity, ParameterList& list) {
   list.set("Name", quantity.name).set("Value", quantity.value);
   if (quantity.failure.empty())
@@ -189,6 +207,8 @@ void enterCosts(const RunResult& result, ParameterList& list) {
     times.set("Start", result.start->seconds);
   if (result.error)
     times.set("Error Estimate", result.times.errorEstimate);
+  if (result.bound)
+    times.set("Bound", result.times.bound);
   if (result.times.output > 0)
     times.set("Output", result.times.output);
   if (result.times.total > 0)
@@ -249,6 +269,8 @@ ParameterList reportOf(const RunResult& result) {
   enterAccuracy(result, list.sublist("Accuracy"));
   if (result.start)
     enterStart(*result.start, list.sublist("Start"));
+  if (result.bound)
+    enterBound(*result.bound, list.sublist("Bound"));
   if (result.quantity)
     enterQuantity(*result.quantity, list.sublist("Quantity"));
   for (const ContactResult& contact : result.contacts)

@@ -5,6 +5,7 @@
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/accuracy/AccuracyLoop.hpp"
+#include "epafi/accuracy/EnergyBound.hpp"
 #include "epafi/simulation/Evaluation.hpp"
 #include "epafi/simulation/JointResults.hpp"
 #include "epafi/simulation/PreloadResults.hpp"
@@ -54,7 +55,7 @@ struct ErrorResult {
 
 /// Seconds, the largest over the ranks; 0 where nothing was done.
 struct RunTimes {
-  double assembly = 0, recovery = 0, errorEstimate = 0, output = 0, total = 0;
+  double assembly = 0, recovery = 0, errorEstimate = 0, bound = 0, output = 0, total = 0;
 };
 
 /// A run that refined its mesh until an error was small enough.
@@ -85,10 +86,11 @@ struct RunResult {
   double equilibrium = 0, algebraicError = std::numeric_limits<double>::quiet_NaN(), energy = 0;
   GlobalOrdinal activeContactNodes = 0;
   double contactForce = 0;
-  double loadWork = 0;              ///< fᵀu of the loads
-  std::optional<ErrorResult> error; ///< if asked for
-  std::string doubts;               ///< what an estimate does not see; perhaps empty
-  std::optional<Quantity> quantity; ///< if asked for
+  double loadWork = 0;                        ///< fᵀu of the loads
+  std::optional<ErrorResult> error;           ///< if asked for
+  std::optional<accuracy::EnergyBound> bound; ///< if asked for
+  std::string doubts;                         ///< what an estimate does not see; perhaps empty
+  std::optional<Quantity> quantity;           ///< if asked for
   std::optional<CoarserStart> start;
   std::vector<BodyResult> bodies;
   bool choosesClusters = false; ///< whether some body's clusters were left to choose

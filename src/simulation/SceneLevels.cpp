@@ -158,6 +158,7 @@ MeshResult SceneLevels::solve(int order) {
   const bool isOfNumber = quantity_.kind != QuantityParameters::Kind::none;
   RunOptions options{
       .estimatesError = true,
+      .bound = isBounded_,
       .quantity = quantity_,
       .facts = {.purpose = isOfNumber ? Purpose::quantity : Purpose::mesh, .isUniform = isUniform_},
       .companion = companion_};

@@ -22,6 +22,7 @@ public:
               RCP<const Comm> comm, RunCompanion* companion, bool isUniform = false);
 
   accuracy::MeshResult solve(int order) final;
+  void boundEnergies() { isBounded_ = true; }    ///< of each mesh, with a guarantee
   [[nodiscard]] SceneRun& run() { return run_; } ///< the last one
   [[nodiscard]] const SceneRun& run() const { return run_; }
 
@@ -42,7 +43,7 @@ private:
   RCP<const Comm> comm_;
   RunCompanion* companion_;
   SceneRun run_;
-  bool isUniform_, hasRun_ = false;
+  bool isUniform_, hasRun_ = false, isBounded_ = false;
   double start_, bytesBefore_;
 };
 

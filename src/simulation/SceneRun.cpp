@@ -1,5 +1,7 @@
 #include "epafi/simulation/SceneRun.hpp"
 
+#include "epafi/simulation/GuaranteedBound.hpp"
+
 #include "epafi/simulation/CoarserScene.hpp"
 #include "epafi/simulation/RowWords.hpp"
 
@@ -235,8 +237,8 @@ RCP<const Vector> prepareSolve(SceneRun& run, const Teuchos::ParameterList& solv
 }
 
 /// From a start to what follows from the solution. Collective.
-void solveFrom(const Vector* start, const std::optional<QuantityOfScene>& quantity, const RunOptions& options,
-               SceneRun& run) {
+void solveFrom(const Vector* start, const std::optional<QuantityOfScene>& quantity,
+               accuracy::EnergyBounds* bounds, const RunOptions& options, SceneRun& run) {
   const bool estimatesError = options.estimatesError || quantity;
   std::optional<accuracy::ErrorEstimator> estimator;
   if (estimatesError || run.solver->plan().isBalanced)
@@ -254,6 +256,12 @@ void solveFrom(const Vector* start, const std::optional<QuantityOfScene>& quanti
   if (estimatesError)
     run.result.times.errorEstimate =
         maxOverRanks(*run.decomposition->problem.comm, Teuchos::Time::wallTime() - began);
+  if (bounds != nullptr) {
+    const double since = Teuchos::Time::wallTime();
+    run.result.bound = guaranteedBound(*bounds, *run.solver, run.solved());
+    run.result.times.bound =
+        maxOverRanks(*run.decomposition->problem.comm, Teuchos::Time::wallTime() - since);
+  }
   evaluateRun(run);
   if (options.requiresSmall)
     requireSmall(run.result);
@@ -266,7 +274,8 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   SceneRun run;
   const double began = Teuchos::Time::wallTime();
   run.scene = scene;
-  const model::Meshes meshes = options.quantity.point.empty() ? options.meshes : model::Meshes::whole;
+  const model::Meshes meshes =
+      options.quantity.point.empty() && !options.bound ? options.meshes : model::Meshes::whole;
   run.decomposition = std::make_unique<model::Decomposition>(
       options.bodies == nullptr ? model::decompose(scene, comm, meshes)
                                 : model::decompose(scene, std::move(*options.bodies), comm));
@@ -275,10 +284,13 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   std::optional<QuantityOfScene> quantity;
   if (options.quantity.kind != QuantityParameters::Kind::none)
     quantity.emplace(options.quantity, run.scene, *run.decomposition);
+  std::optional<accuracy::EnergyBounds> bounds;
+  if (options.bound)
+    bounds.emplace(run.scene, *run.decomposition);
   run.result.times.assembly = maxOverRanks(*comm, Teuchos::Time::wallTime() - began);
   try {
     const RCP<const Vector> start = prepareSolve(run, solverParameters, comm, options);
-    solveFrom(start.get(), quantity, options, run);
+    solveFrom(start.get(), quantity, bounds ? &*bounds : nullptr, options, run);
   } catch (const fetidp::ContradictionError& error) { // on all ranks
     throw inWordsOf(*run.decomposition, error);
   }
@@ -288,7 +300,7 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
 void solveAgain(SceneRun& run, const RunOptions& options) {
   const RCP<const Vector> start = run.solution.multiplier;
   try {
-    solveFrom(start.get(), std::nullopt, options, run);
+    solveFrom(start.get(), std::nullopt, nullptr, options, run);
   } catch (const fetidp::ContradictionError& error) { // on all ranks
     throw inWordsOf(*run.decomposition, error);
   }

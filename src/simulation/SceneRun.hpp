@@ -66,13 +66,14 @@ struct SceneRun {
 struct RunOptions {
   bool estimatesError = false;
   bool requiresSmall = false;    ///< displacements, see Deformation::large; else they leave a doubt
+  bool bound = false;            ///< whether to bound energy and error
   QuantityParameters quantity{}; ///< needs the estimate, and has it made
   const SceneRun* coarser =
       nullptr;              ///< the same scene on a coarser mesh: its solution is where this run starts
   fetidp::RunFacts facts{}; ///< what the solve is for, and from which size on it may look for a coarser mesh
   RunCompanion* companion = nullptr;
   /// How meshes of files lie on several ranks, where `bodies` does not say: whole if runs are to be compared.
-  /// A displacement at a point wants them whole, and has them.
+  /// A displacement at a point and a bound want them whole, and have them.
   model::Meshes meshes = model::Meshes::whole;
   /// Bodies that are meshed and cut already, which the run takes; null: as the scene says.
   std::vector<model::BodyLayout>* bodies = nullptr;

@@ -1,0 +1,25 @@
+#pragma once
+
+/// Tractions between elements may change by what keeps each element in balance (ModeGroups.hpp). Of all of
+/// these, conjugate gradients look for those with the least energy of the stresses.
+
+#include "epafi/accuracy/BoundCells.hpp"
+#include "epafi/accuracy/BoundLoads.hpp"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace epafi::accuracy {
+
+/// One to eight steps, until one gains less than a twentieth of what is left; each iterate is as admissible
+/// as the first. Of all bodies; edges between ranks take part.
+/// \param data  of each body's own cells, as CellStress has them; changed
+/// \param difference  ½‖τ − σ‖² of the stress that they have at first, of all bodies
+/// Returns the number of steps. Collective.
+int relaxTractions(const std::vector<std::unique_ptr<BoundCells>>& cells,
+                   const std::vector<BoundLoads>& loads, const RCP<const Comm>& comm, double difference,
+                   std::vector<Eigen::MatrixXd>& data);
+
+} // namespace epafi::accuracy

@@ -1,0 +1,203 @@
+// Guaranteed bounds beside solutions on meshes four times finer: energies and errors lie within them, and
+// they are not much larger; the same on every number of ranks; what is not covered is refused.
+
+#include "support/ElasticSample.hpp"
+#include "support/SolidScenes.hpp"
+
+#include "epafi/accuracy/ErrorNorms.hpp"
+#include "epafi/accuracy/Refinement.hpp"
+#include "epafi/scene/ModelProblem.hpp"
+#include "epafi/simulation/SceneRun.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace epafi::simulation {
+namespace {
+
+using fem::Physics;
+using fem::SolidLoad;
+using mesh::CellType;
+using scene::Scene;
+
+struct GuaranteedBoundTest : testing::Test {
+  RCP<const Comm> comm = Tpetra::getDefaultComm();
+  test::TemporaryDirectory directory{comm};
+
+  SceneRun solve(const Scene& scene, double asked = 1e-10, const RCP<const Comm>& ranks = {}) const {
+    return solveScene(scene, Teuchos::ParameterList().set("Tolerance", asked), ranks.is_null() ? comm : ranks,
+                      {.bound = true});
+  }
+
+  /// A rectangle of 4 × 4 cells, in four subdomains. Collective.
+  scene::Body rectangle(const test::Kind& kind, int order, const std::string& name,
+                        const mesh::Box& box) const {
+    constexpr int cells = 4;
+    scene::Body body;
+    body.name = name;
+    body.physics = kind.physics;
+    body.material = {2.0, 200.0, 0.3, 0.5};
+    body.mesh.order = order;
+    body.decomposition = test::cutByMetis(4);
+    if (kind.cell == CellType::triangle) {
+      const auto across = test::evenLines(box.lower[0], box.upper[0], cells),
+                 up = test::evenLines(box.lower[1], box.upper[1], cells);
+      body.mesh.file = test::writeMesh(directory, *comm, name + ".msh", kind.cell, {across, up, {}});
+    } else {
+      body.mesh.box = box;
+      body.mesh.elements = {cells, cells, 0};
+    }
+    return body;
+  }
+
+  /// A block on a floor and one that a wall holds on its left, pressed on it and lifted at its right end: the
+  /// joint opens there.
+  Scene lifted(const test::Kind& kind, int order, double poissonsRatio = 0.3) const {
+    Scene scene;
+    scene.bodies = {rectangle(kind, order, "lower", mesh::rectangle(0, 2, 0, 1)),
+                    rectangle(kind, order, "upper", mesh::rectangle(0, 2, 1, 2))};
+    for (scene::Body& body : scene.bodies)
+      body.material.poissonsRatio = poissonsRatio;
+    scene.bodies[0].supports = {{"floor", "bottom", {std::nullopt, 0.0}}, {"wall", "left", {0.0}}};
+    scene.bodies[1].supports = {{"wall", "left", {0.0, -0.02}}};
+    scene.bodies[1].loads = {{"weight", SolidLoad::Kind::body, {}, "", {0, 0, 0}, {0, -2, 0}},
+                             {"pull", SolidLoad::Kind::traction, {}, "top", {0, 0, 0}, {0, 1, 0}}};
+    scene.bodies[1].loads[0].box = mesh::Box{{-9, -9, -9}, {9, 9, 9}};
+    scene.contacts = {test::between("joint", 0, "top", 1, "bottom")};
+    return scene;
+  }
+
+  /// A block that a wall holds, pressed towards a plane below it, which it meets at its right end.
+  Scene onPlane(const test::Kind& kind, int order) const {
+    Scene scene;
+    scene.bodies = {rectangle(kind, order, "block", mesh::rectangle(0, 2, 0, 1))};
+    scene.bodies[0].supports = {{"wall", "left", {0.0, 0.0}}};
+    scene.bodies[0].loads = {{"press", SolidLoad::Kind::pressure, {}, "top", {0, 0, 0}, {10, 0, 0}}};
+    scene.contacts = {test::onPlane("floor", 0, "bottom", {0, -0.1, 0}, {0, 1, 0})};
+    return scene;
+  }
+
+  /// A rectangle that is pulled at its right end.
+  static Scene stretched() {
+    Scene scene;
+    scene.bodies = {test::block("strip", mesh::rectangle(0, 2, 0, 1), {8, 4, 0}, test::cutInGrid({2, 2, 1}))};
+    scene.bodies[0].supports = {{"wall", "left", {0.0}}, {"floor", "bottom", {std::nullopt, 0.0}}};
+    scene.bodies[0].loads = {{"pull", SolidLoad::Kind::traction, {}, "right", {0, 0, 0}, {3, 0, 0}}};
+    return scene;
+  }
+
+  static Scene membranes(int elements, int order) {
+    Scene scene = scene::modelProblem(true, 2, elements);
+    for (scene::Body& body : scene.bodies)
+      body.mesh.order = order;
+    return scene;
+  }
+
+  /// By the solution on a mesh four times finer, and its own bound, which tells what that lacks.
+  void expectBounds(const std::string& name, const Scene& scene, double most) const {
+    SCOPED_TRACE(name);
+    const SceneRun run = solve(scene), fine = solve(accuracy::refined(accuracy::refined(scene)));
+    ASSERT_TRUE(run.result.bound && fine.result.bound);
+    const accuracy::EnergyBound &bound = *run.result.bound, &finer = *fine.result.bound;
+    ASSERT_EQ(bound.failure, "");
+    ASSERT_EQ(finer.failure, "");
+    EXPECT_LE(bound.lower, finer.upper);
+    EXPECT_GE(bound.upper, finer.upper);
+    const double distance =
+        accuracy::errorAgainst(fine.scene, *fine.decomposition, fine.solution.displacement,
+                               *run.decomposition, run.solution.displacement)
+            .energy;
+    const double error = distance - finer.error; // of run at least
+    EXPECT_GE(bound.error, error);
+    const double effectivity = bound.error / std::hypot(distance, fine.error->discretisation);
+    EXPECT_GE(effectivity, 0.999);
+    EXPECT_LE(effectivity, most);
+  }
+};
+
+TEST_F(GuaranteedBoundTest, HoldsForMembranes) {
+  if (comm->getSize() > 1)
+    GTEST_SKIP() << "bounds are the same on every number of ranks, as another test has it";
+  for (const int order : {1, 2}) {
+    expectBounds("membranes of order " + std::to_string(order), membranes(8, order), 1.2);
+    // Loads that end inside of elements take most of it.
+    expectBounds("loads beside the mesh, order " + std::to_string(order), membranes(6, order),
+                 order == 1 ? 1.7 : 5.5);
+  }
+}
+
+TEST_F(GuaranteedBoundTest, HoldsForElasticBlocks) {
+  if (comm->getSize() > 1)
+    GTEST_SKIP() << "bounds are the same on every number of ranks, as another test has it";
+  for (const Physics physics : {Physics::planeStrain, Physics::planeStress})
+    for (const CellType cell : {CellType::quadrilateral, CellType::triangle})
+      for (const int order : {1, 2}) {
+        const test::Kind kind{physics, cell};
+        const std::string name = toString(physics) + ", " + toString(withOrder(cell, order));
+        expectBounds(name + ", two blocks", lifted(kind, order), 2.1);
+        expectBounds(name + ", a plane", onPlane(kind, order), 1.35);
+      }
+}
+
+/// What tolerances leave open and what quadratic edges overlap between their nodes counts.
+TEST_F(GuaranteedBoundTest, HoldsForRoughIterations) {
+  for (const int order : {1, 2}) {
+    const Scene scene = membranes(8, order);
+    const SceneRun exact = solve(scene), rough = solve(scene, 1e-2);
+    const accuracy::EnergyBound &bound = *exact.result.bound, &wide = *rough.result.bound;
+    ASSERT_EQ(wide.failure, "");
+    EXPECT_GT(wide.upper - wide.lower, 1.01 * (bound.upper - bound.lower));
+    EXPECT_LE(wide.lower, bound.upper);
+    EXPECT_GE(wide.upper, bound.lower);
+    EXPECT_GE(wide.error + bound.error,
+              accuracy::errorAgainst(exact.scene, *exact.decomposition, exact.solution.displacement,
+                                     *rough.decomposition, rough.solution.displacement)
+                  .energy);
+  }
+}
+
+TEST_F(GuaranteedBoundTest, IsTheSameOnEveryNumberOfRanks) {
+  for (const CellType cell : {CellType::quadrilateral, CellType::triangle}) {
+    const Scene scene = lifted({Physics::planeStrain, cell}, 2);
+    const SceneRun here = solve(scene), alone = solve(scene, 1e-10, comm->split(comm->getRank(), 0));
+    const accuracy::EnergyBound &bound = *here.result.bound, &same = *alone.result.bound;
+    ASSERT_EQ(bound.failure, "");
+    EXPECT_EQ(bound.steps, same.steps);
+    EXPECT_NEAR(bound.error, same.error, 1e-6 * same.error);
+    EXPECT_NEAR(bound.lower, same.lower, 1e-6 * (same.upper - same.lower));
+    EXPECT_NEAR(bound.upper, same.upper, 1e-6 * (same.upper - same.lower));
+  }
+}
+
+TEST_F(GuaranteedBoundTest, HasNoErrorWhereTheStressIsEven) {
+  const SceneRun run = solve(stretched());
+  ASSERT_EQ(run.result.bound->failure, "");
+  EXPECT_GT(run.result.bound->energyNorm, 1e-2);
+  EXPECT_LE(run.result.bound->error, 1e-6 * run.result.bound->energyNorm);
+}
+
+TEST_F(GuaranteedBoundTest, RefusesWhatItDoesNotCover) {
+  const auto expectRefusal = [&](const Scene& scene, const std::string& word) {
+    try {
+      solve(scene);
+      ADD_FAILURE() << word;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  Scene scene = stretched();
+  scene.bodies[0].loads.push_back({"heat", SolidLoad::Kind::temperature, {}, "", {0, 0, 0}, {5, 0, 0}});
+  expectRefusal(scene, "temperature");
+  scene = stretched();
+  scene.bodies[0].loads.push_back(test::pointForce({2, 1, 0}, {1, 0, 0}));
+  expectRefusal(scene, "forces at points");
+  scene = stretched();
+  scene.bodies[0].physics = Physics::axisymmetric;
+  expectRefusal(scene, "axisymmetric");
+  expectRefusal(scene::modelProblem(false, 2, 4), "supports hold");
+}
+
+} // namespace
+} // namespace epafi::simulation
