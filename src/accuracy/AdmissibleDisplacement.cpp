@@ -29,7 +29,7 @@ NodalValues meansOf(const BoundCells& cells, const Eigen::MatrixXd& displacement
     ascending.push_back(number);
   std::vector<fem::PrescribedValue> prescribed;
   cells.model().prescribed(ascending, prescribed);
-  for (const auto& [position, value] : prescribed)
+  for (const auto& [position, value, support] : prescribed)
     values(static_cast<Eigen::Index>(position) % components,
            nodes[position / static_cast<std::size_t>(components)].second) = value;
   return values;
