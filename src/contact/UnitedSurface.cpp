@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace epafi::contact {
 
@@ -34,15 +35,17 @@ UnitedSurface unite(const mesh::Mesh& mesh, std::span<const std::string> names) 
 }
 
 void turnOver(mesh::Surface& surface) {
-  const int numCorners = mesh::numCornersOf(surface.facetType);
+  mesh::Surface turned{surface.facetType, {}, {}};
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-    const auto corners =
-        surface.facetNodes.begin() + static_cast<std::ptrdiff_t>(f) * surface.nodesPerFacet();
-    std::reverse(corners, corners + numCorners);
-    if (mesh::orderOf(surface.facetType) ==
-        2) // then come the middles of edges, the last one from last to first
-      std::reverse(corners + numCorners, corners + 2 * numCorners - 1);
+    const auto facet = surface.facet(f);
+    std::vector<GlobalOrdinal> nodes(facet.begin(), facet.end());
+    const auto corners = nodes.begin() + numCornersOf(surface.typeOf(f));
+    std::reverse(nodes.begin(), corners);
+    if (corners != nodes.end()) // then come the middles of edges, the last one from last to first
+      std::reverse(corners, corners + (corners - nodes.begin()) - 1);
+    turned.add(nodes);
   }
+  surface.facetNodes = std::move(turned.facetNodes);
 }
 
 } // namespace epafi::contact

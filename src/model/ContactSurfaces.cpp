@@ -112,7 +112,7 @@ Eigen::Vector3d areaVectorOf(const mesh::Mesh& mesh, const mesh::Surface& surfac
   std::vector<Point> points;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     mesh.pointsAt(surface.facet(f), points);
-    sum += mesh::areaVector(surface.facetType, points);
+    sum += mesh::areaVector(surface.typeOf(f), points);
   }
   return sum;
 }
