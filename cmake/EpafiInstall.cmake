@@ -42,9 +42,12 @@ function(epafi_install_library target name)
   set_property(GLOBAL APPEND_STRING PROPERTY EPAFI_USES "set(epafi_uses_${name} ${uses})\n")
 endfunction()
 
-# epafi_install_headers(<room>): those of the current folder.
+# epafi_install_headers(<room> [<header> ...]): those of the current folder but the named ones.
 function(epafi_install_headers room)
   file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp")
+  foreach(internal IN LISTS ARGN)
+    list(REMOVE_ITEM headers "${CMAKE_CURRENT_SOURCE_DIR}/${internal}")
+  endforeach()
   install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/epafi/${room}" COMPONENT development)
 endfunction()
 

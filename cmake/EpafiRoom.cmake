@@ -39,11 +39,11 @@ function(epafi_library target name)
   endif()
 endfunction()
 
-# epafi_room(<room> [NAME <name>] SOURCES ... USES ... [NEEDS ...])
-# The library of the folder, as above, and the include path epafi/<room>/; that of the room fetidp/solve is Epafi::fetidp_solve,
+# epafi_room(<room> [NAME <name>] SOURCES ... USES ... [NEEDS ...] [INTERNAL ...])
+# INTERNAL are headers for the room's own sources, which are not installed. The library of the folder, as above, and the include path epafi/<room>/; that of the room fetidp/solve is Epafi::fetidp_solve,
 # if it is not named otherwise.
 function(epafi_room room)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "NAME" "SOURCES;USES;NEEDS")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "NAME" "SOURCES;USES;NEEDS;INTERNAL")
   string(REPLACE "/" "_" name "${room}")
   if(ROOM_NAME)
     set(name ${ROOM_NAME})
@@ -56,6 +56,6 @@ function(epafi_room room)
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${EPAFI_INCLUDE_ROOT}/epafi/${room}" SYMBOLIC)
   epafi_library(epafi_${name} ${name} SOURCES ${ROOM_SOURCES} USES ${ROOM_USES} NEEDS ${ROOM_NEEDS})
   if(EPAFI_INSTALL)
-    epafi_install_headers(${room})
+    epafi_install_headers(${room} ${ROOM_INTERNAL})
   endif()
 endfunction()

@@ -6,6 +6,8 @@
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <Tpetra_Core.hpp>
 
+#include <bit>
+
 namespace epafi::python {
 namespace {
 
@@ -68,7 +70,7 @@ py::dict schemaOf(const Teuchos::ParameterList& schema) {
 RCP<const Comm> communicator(std::uintptr_t address) {
   if (address == 0)
     return Tpetra::getDefaultComm();
-  return rcp(new Teuchos::MpiComm<int>(*reinterpret_cast<const MPI_Comm*>(address)));
+  return rcp(new Teuchos::MpiComm<int>(*std::bit_cast<const MPI_Comm*>(address)));
 }
 
 } // namespace epafi::python

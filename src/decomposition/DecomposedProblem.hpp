@@ -65,15 +65,15 @@ struct NodeFrame {
   Eigen::Matrix3d axes; ///< a rotation; its columns are the axes. In the plane it turns about z
 };
 
-/// What supports hold of a subdomain, position by position along the nodes' axes: they act on it with the
-/// forces K_p u + B_pᵀλ − f_p, f_p being SubdomainData::heldForces.
+/// What supports hold of a subdomain: they act on it with K_p u + B_pᵀλ − f_p, f_p in SubdomainData.
 struct HeldRows {
+  /// One entry of B_p.
   struct ConstraintEntry {
     MultiplierNumber row;
     int held = 0; ///< place in `positions`
     double coefficient = 0;
   };
-  std::vector<int> positions; ///< n_p, ascending
+  std::vector<int> positions; ///< n_p, ascending; along the nodes' axes
   std::vector<int> supports;  ///< of each which of its body's supports holds it; −1: none that has a name
   std::shared_ptr<const SparseMatrix> stiffness; ///< K_p, n_p × all positions
   std::vector<ConstraintEntry> constraint;       ///< B_p, of a node that subdomains share in the lowest one

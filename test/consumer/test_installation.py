@@ -102,7 +102,7 @@ class Places(unittest.TestCase):
                      "share/doc/epafi/LICENSE", "share/doc/epafi/docs/user-guide.md", "include/epafi/ContactSolver.hpp",
                      "include/epafi/qp/solve/QpSolver.hpp"):
             self.assertTrue((PREFIX / name).is_file(), name)
-        rooms = {"base", "direct", "qp/operators", "qp/constraints", "qp", "benchmarks", "deck", "scene", "decomposition", "mesh", "meshing", "fem", "contact", "model", "accuracy",
+        rooms = {"base", "direct", "qp/operators", "qp/constraints", "qp", "benchmarks", "deck", "scene", "decomposition", "mesh", "meshing", "assembly", "fem", "contact", "model", "accuracy",
                  "fetidp/operator", "fetidp/precondition", "fetidp/equilibrium", "fetidp/solve", "simulation", "output"}
         if has_adapters():
             rooms |= {"linear", "adapters"}
