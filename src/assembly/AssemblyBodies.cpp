@@ -108,12 +108,12 @@ private:
 void BodyMaker::begin(const ParameterList& given, const std::string& mesh) {
   for (int s = 0; s < std::ssize(assembly_.solids); ++s)
     bodyOf(s).set("Physics", "elasticity 3-D").set("Mesh", mesh).set("Group", assembly_.solids[s].name);
-  for (auto entry = given.begin(); entry != given.end(); ++entry) {
-    if (!entry->second.isList())
-      throw InputError("list \"Bodies\" holds the parameter " + inQuotes(entry->first) +
+  for (const auto& entry : given) {
+    if (!entry.second.isList())
+      throw InputError("list \"Bodies\" holds the parameter " + inQuotes(entry.first) +
                        ", but must hold lists, one a body");
-    for (const int solid : solidsOf(assembly_, entry->first))
-      merge(Teuchos::getValue<ParameterList>(entry->second), solid);
+    for (const int solid : solidsOf(assembly_, entry.first))
+      merge(Teuchos::getValue<ParameterList>(entry.second), solid);
   }
 }
 
@@ -125,16 +125,16 @@ void BodyMaker::merge(const ParameterList& given, int solid) {
       continue;
     const ParameterList entries = own.sublist(kind);
     own.remove(kind);
-    for (auto entry = entries.begin(); entry != entries.end(); ++entry) {
-      const bool isList = entry->second.isList(); // if not, that is told where the scene is checked
-      const ParameterList list = isList ? Teuchos::getValue<ParameterList>(entry->second) : ParameterList();
+    for (const auto& entry : entries) {
+      const bool isList = entry.second.isList(); // if not, that is told where the scene is checked
+      const ParameterList list = isList ? Teuchos::getValue<ParameterList>(entry.second) : ParameterList();
       if (!list.isType<std::string>("Surface")) {
-        own.sublist(kind).setEntry(entry->first, entry->second);
+        own.sublist(kind).setEntry(entry.first, entry.second);
         continue;
       }
       for (const int face : facesOf(assembly_, list.get<std::string>("Surface"), solid)) {
         const std::string group = groupOf(assembly_.faces[face]);
-        own.sublist(kind).sublist(entry->first + ", " + group).setParameters(list).set("Surface", group);
+        own.sublist(kind).sublist(entry.first + ", " + group).setParameters(list).set("Surface", group);
       }
     }
   }
@@ -180,11 +180,11 @@ ParameterList& BodyMaker::entryFor(const std::string& kind, const std::string& w
 }
 
 void BodyMaker::addSupports(const ParameterList& lines) {
-  for (auto line = lines.begin(); line != lines.end(); ++line) {
-    const std::string& words = line->first;
-    if (!line->second.isType<std::string>())
+  for (const auto& line : lines) {
+    const std::string& words = line.first;
+    if (!line.second.isType<std::string>())
       throw InputError("the support " + inQuotes(words) + " must be a string, \"fixed\" or \"xy\" say");
-    const auto value = Teuchos::getValue<std::string>(line->second);
+    const auto value = Teuchos::getValue<std::string>(line.second);
     if (const int c = cornerOf(assembly_, words); c >= 0) {
       const Corner& corner = assembly_.corners[c];
       Held{assembly_, words, nullptr}.read(
@@ -200,10 +200,10 @@ void BodyMaker::addSupports(const ParameterList& lines) {
 
 /// Pressures, and forces spread over all faces that the words mean.
 void BodyMaker::addLoads(const ParameterList& lines, bool isForce) {
-  for (auto line = lines.begin(); line != lines.end(); ++line) {
-    const std::string& words = line->first;
-    if (isForce ? !line->second.isType<Numbers>() || Teuchos::getValue<Numbers>(line->second).size() != 3
-                : !line->second.isType<double>())
+  for (const auto& line : lines) {
+    const std::string& words = line.first;
+    if (isForce ? !line.second.isType<Numbers>() || Teuchos::getValue<Numbers>(line.second).size() != 3
+                : !line.second.isType<double>())
       throw InputError("the " + std::string(isForce ? "force " : "pressure ") + inQuotes(words) +
                        " must be " + (isForce ? "an Array(double) {x, y, z}" : "a double"));
     const std::vector<int> faces = found(words);
@@ -215,10 +215,10 @@ void BodyMaker::addLoads(const ParameterList& lines, bool isForce) {
       ParameterList& load = entryFor("Loads", words, face.solid, groupOf(face));
       load.set("Kind", isForce ? "traction" : "pressure");
       if (!isForce) {
-        load.set("Value", Teuchos::getValue<double>(line->second));
+        load.set("Value", Teuchos::getValue<double>(line.second));
         continue;
       }
-      Numbers traction = Teuchos::getValue<Numbers>(line->second);
+      Numbers traction = Teuchos::getValue<Numbers>(line.second);
       for (double& component : traction)
         component /= area;
       load.set("Force", traction);

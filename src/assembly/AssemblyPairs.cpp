@@ -142,12 +142,12 @@ ParameterList contactsOf(const Assembly& assembly, const ParameterList& given, c
                          std::string& notes) {
   ParameterList contacts("Contact");
   std::set<std::pair<int, int>> known;
-  for (auto entry = given.begin(); entry != given.end(); ++entry) {
-    if (!entry->second.isList())
-      throw InputError("list \"Contact\" holds the parameter " + inQuotes(entry->first) +
+  for (const auto& entry : given) {
+    if (!entry.second.isList())
+      throw InputError("list \"Contact\" holds the parameter " + inQuotes(entry.first) +
                        ", but must hold lists, one a pair");
-    ParameterList& pair = contacts.sublist(entry->first);
-    pair.setParameters(Teuchos::getValue<ParameterList>(entry->second));
+    ParameterList& pair = contacts.sublist(entry.first);
+    pair.setParameters(Teuchos::getValue<ParameterList>(entry.second));
     known.insert(resolve(assembly, pair));
   }
   std::vector<FacePair> pairs = assembly.pairs;
