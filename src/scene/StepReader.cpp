@@ -9,6 +9,7 @@
 #include "epafi/scene/SceneSchema.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <string_view>
 
 namespace epafi::scene {
@@ -232,10 +233,10 @@ Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
   for (const auto& [place, state] : states)
     if (state == SupportState::fixed)
       scene.bodies[place.first].supports[place.second].displacements.emplace();
-  for (auto entry = states.rbegin(); entry != states.rend(); ++entry) // the last of a body first
-    if (entry->second == SupportState::off) {
-      std::vector<fem::SolidSupport>& all = scene.bodies[entry->first.first].supports;
-      all.erase(all.begin() + entry->first.second);
+  for (const auto& [place, state] : std::views::reverse(states)) // the last of a body first
+    if (state == SupportState::off) {
+      std::vector<fem::SolidSupport>& all = scene.bodies[place.first].supports;
+      all.erase(all.begin() + place.second);
     }
   return scene;
 }
