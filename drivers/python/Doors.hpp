@@ -6,6 +6,8 @@
 
 namespace epafi::python {
 
-void defineScenes(pybind11::module_& module); ///< Run and solve_scene
+void defineScenes(pybind11::module_& module);   ///< Run and solve_scene
+void definePrograms(pybind11::module_& module); ///< solve_program
+void defineMatrices(pybind11::module_& module); ///< Problem
 
 } // namespace epafi::python

@@ -53,6 +53,8 @@ PYBIND11_MODULE(_epafi, module) {
   module.def("begin", &begin);
   module.def("schema", [] { return schemaOf(simulation::driverSchema()); });
   defineScenes(module);
+  definePrograms(module);
+  defineMatrices(module);
 }
 
 } // namespace epafi::python

@@ -9,7 +9,7 @@ import tempfile
 
 page, scenes = map(pathlib.Path, sys.argv[1:])
 pieces = re.findall(r"^```python\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-if len(pieces) < 2:
+if len(pieces) < 4:
     sys.exit(f"{page} has {len(pieces)} pieces of Python alone")
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)

@@ -18,8 +18,10 @@ except ImportError:
 _epafi.begin()
 
 from ._epafi import Error, InputError, SolvabilityError  # noqa: E402
+from .matrices import Problem, Solution  # noqa: E402
 from .parameters import (Accuracy, Body, Decomposition, Equation, Load, Obstacle, Pair, Region, Scene, Solver,  # noqa: E402
                          Step, Support)
+from .qp import QpResult, solve_qp  # noqa: E402
 from .result import BodyFields, ContactFields, NotConverged, Result, Stage, TieFields  # noqa: E402
 from .scenes import solve, to_xml  # noqa: E402
 
@@ -32,5 +34,5 @@ InputError.__doc__ = "The input is wrong: where, the value found, and what is al
 SolvabilityError.__doc__ = "The problem has no solution, or more than one: which body, and why."
 
 __all__ = ["Accuracy", "Body", "BodyFields", "ContactFields", "Decomposition", "Equation", "Error", "InputError", "Load",
-           "NotConverged", "Obstacle", "Pair", "Region", "Result", "Scene", "SolvabilityError", "Solver", "Stage", "Step",
-           "Support", "TieFields", "solve", "to_xml"]
+           "NotConverged", "Obstacle", "Pair", "Problem", "QpResult", "Region", "Result", "Scene", "Solution",
+           "SolvabilityError", "Solver", "Stage", "Step", "Support", "TieFields", "solve", "solve_qp", "to_xml"]

@@ -1,0 +1,225 @@
+#include "Arrays.hpp"
+#include "Doors.hpp"
+#include "Sparse.hpp"
+#include "Watch.hpp"
+
+#include "epafi/ContactSolver.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/ElementMatrices.hpp"
+#include "epafi/decomposition/UnassembledProblem.hpp"
+#include "epafi/scene/ParameterFile.hpp"
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <metis.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+
+namespace epafi::python {
+namespace {
+
+/// Rows of a table as Eigen has them.
+Eigen::MatrixXd tableOf(const Row<double>& table) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(table.data(), table.shape(0), table.shape(1));
+}
+
+template <class T>
+std::span<const T> spanOf(const Row<T>& row) {
+  return {row.data(), static_cast<std::size_t>(row.size())};
+}
+
+/// A contact problem of an application's matrices, all of it on this rank. Unknowns are numbered through all
+/// bodies.
+class Problem {
+public:
+  Problem(int dimension, int components, std::vector<std::string> bodies)
+      : components_(components), comm_(rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF))),
+        problem_(comm_, dimension, components, std::move(bodies)) {}
+
+  /// A body that is one subdomain. \param unknowns  of each row of the matrix \param places  of each node
+  void add(int body, const Row<GlobalOrdinal>& unknowns, const CompressedRows& stiffness,
+           const Row<double>& places, GlobalOrdinal firstNode, const std::map<GlobalOrdinal, double>& held) {
+    const Eigen::MatrixXd table = tableOf(places);
+    decomposition::SubdomainMatrix matrix;
+    matrix.body = body;
+    matrix.unknowns.assign(unknowns.data(), unknowns.data() + unknowns.size());
+    const auto& [starts, columns, values] = stiffness;
+    matrix.stiffness = decomposition::fromCompressedRows(spanOf(starts), spanOf(columns), spanOf(values));
+    matrix.load = Eigen::VectorXd::Zero(unknowns.size());
+    matrix.coordinates.resize(unknowns.size(), table.cols());
+    for (py::ssize_t i = 0; i < unknowns.size(); ++i)
+      matrix.coordinates.row(i) = table.row(unknowns.data()[i] / components_ - firstNode);
+    take(std::move(matrix), held);
+  }
+
+  /// A body of element matrices. \param unknowns  m × e \param stiffness  m × e × e \param parts  m
+  void addElements(int body, const Row<GlobalOrdinal>& unknowns, const Row<double>& stiffness,
+                   const Row<int>& parts, const Row<double>& places, GlobalOrdinal firstNode,
+                   const std::map<GlobalOrdinal, double>& held) {
+    const Eigen::MatrixXd table = tableOf(places);
+    const py::ssize_t perElement = unknowns.shape(1);
+    const Eigen::VectorXd noLoad = Eigen::VectorXd::Zero(perElement);
+    Eigen::MatrixXd coordinates(perElement, table.cols());
+    decomposition::ElementMatrices elements(static_cast<int>(table.cols()));
+    for (py::ssize_t element = 0; element < unknowns.shape(0); ++element) {
+      const std::span<const GlobalOrdinal> own(unknowns.data(element, 0), perElement);
+      for (py::ssize_t i = 0; i < perElement; ++i)
+        coordinates.row(i) = table.row(own[i] / components_ - firstNode);
+      const Eigen::MatrixXd matrix =
+          Eigen::Map<const Eigen::MatrixXd>(stiffness.data(element, 0, 0), perElement, perElement);
+      elements.add(parts.data()[element], {own, coordinates, matrix, noLoad}, body);
+    }
+    for (decomposition::SubdomainMatrix& matrix : elements.take())
+      take(std::move(matrix), held);
+  }
+
+  /// \param friction  a coefficient for each row; empty: without friction
+  void setContact(const CompressedRows& rows, const Row<double>& gaps, int numUnknowns,
+                  const std::vector<double>& friction) {
+    decomposition::ConstraintMatrix contact{matrixOf(rows, numUnknowns, comm_), Teuchos::null};
+    gaps_ = contact.rows->getRowMap();
+    contact.gap = vectorOf(gaps, gaps_, "the gaps");
+    problem_.setContact(contact);
+    friction_ = friction;
+    if (!friction.empty())
+      problem_.setFriction(decomposition::frictionAlong(contact, components_));
+  }
+
+  void complete(const std::string& parameters) {
+    problem_.complete();
+    solver_ = std::make_unique<ContactSolver>(scene::parseParameters(parameters, "parameters"));
+    std::map<GlobalOrdinal, std::size_t> first; // the subdomain that has the load of an unknown
+    for (std::size_t s = 0; s < unknowns_.size(); ++s)
+      for (const GlobalOrdinal unknown : unknowns_[s])
+        first.emplace(unknown, s);
+    for (std::size_t s = 0; s < unknowns_.size(); ++s)
+      for (const GlobalOrdinal unknown : unknowns_[s])
+        hasLoad_.push_back(first[unknown] == s);
+  }
+
+  /// \param loads  of all unknowns  \param gaps  of all rows of contact; nothing: as last
+  py::dict solve(const Row<double>& loads, const std::optional<Row<double>>& gaps,
+                 const py::object& progress);
+
+private:
+  void take(decomposition::SubdomainMatrix&& matrix, const std::map<GlobalOrdinal, double>& held) {
+    for (const GlobalOrdinal unknown : matrix.unknowns)
+      if (const auto found = held.find(unknown); found != held.end())
+        matrix.prescribed.emplace_back(unknown, found->second);
+    unknowns_.push_back(matrix.unknowns);
+    problem_.add(std::move(matrix));
+  }
+  void setLoads(const Row<double>& loads);
+  [[nodiscard]] py::dict resultOf(const fetidp::ContactSolution& solution, py::ssize_t numUnknowns) const;
+
+  int components_;
+  RCP<const Comm> comm_;
+  decomposition::UnassembledProblem problem_;
+  std::vector<std::vector<GlobalOrdinal>> unknowns_; ///< of each subdomain
+  std::vector<bool> hasLoad_;                        ///< of their unknowns, one subdomain after the other
+  RCP<const Map> gaps_;                              ///< of the rows of contact; null without contact
+  std::vector<double> friction_;
+  std::unique_ptr<ContactSolver> solver_;
+  RCP<Vector> last_; ///< multipliers of the last solution
+};
+
+void Problem::setLoads(const Row<double>& loads) {
+  std::size_t place = 0;
+  for (std::size_t s = 0; s < unknowns_.size(); ++s) {
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(std::ssize(unknowns_[s]));
+    for (std::size_t i = 0; i < unknowns_[s].size(); ++i, ++place)
+      if (hasLoad_[place])
+        load[static_cast<Eigen::Index>(i)] = loads.data()[unknowns_[s][i]];
+    problem_.setLoad(s, load);
+  }
+}
+
+py::dict Problem::resultOf(const fetidp::ContactSolution& solution, py::ssize_t numUnknowns) const {
+  std::vector<double> u(numUnknowns, 0.0), forces;
+  const RCP<Vector> values = problem_.unknowns(solution.displacement);
+  const auto data = values->getData();
+  for (Teuchos::Ordinal i = 0; i < data.size(); ++i)
+    u[values->getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))] = data[i];
+  if (!gaps_.is_null()) {
+    const RCP<Vector> force = problem_.contactForces(*solution.multiplier);
+    const auto own = force->getData();
+    forces.assign(own.begin(), own.end());
+  }
+  const SolveFacts facts = solver_->facts();
+  using namespace py::literals;
+  return py::dict("u"_a = arrayOf(std::move(u)), "forces"_a = arrayOf(std::move(forces)),
+                  "energy"_a = solution.energy, "status"_a = toString(facts.status),
+                  "reason"_a = facts.statusReason, "products"_a = facts.counts.hessianMultiplications,
+                  "setup_seconds"_a = facts.times.setup, "subdomains"_a = facts.numSubdomains,
+                  "feasibility"_a = solution.feasibility, "complementarity"_a = solution.complementarity,
+                  "projected_gradient"_a = solution.relativeProjectedGradient);
+}
+
+py::dict Problem::solve(const Row<double>& loads, const std::optional<Row<double>>& gaps,
+                        const py::object& progress) {
+  Watch watch(comm_, progress);
+  fetidp::ContactSolution solution;
+  {
+    const py::gil_scoped_release noLock;
+    setLoads(loads);
+    if (gaps)
+      problem_.setGap(*vectorOf(*gaps, gaps_, "the gaps"));
+    decomposition::ProblemData data = problem_.data();
+    if (!friction_.empty())
+      data.setFrictionCoefficients(problem_.problem(), friction_);
+    if (last_.is_null())
+      solver_->setup(problem_.problem(), data);
+    solution = solver_->solve(data, last_.get(), &watch);
+  }
+  if (solver_->report().status == qp::Status::interrupted)
+    watch.raise();
+  last_ = solution.multiplier;
+  return resultOf(solution, loads.size());
+}
+
+/// Cuts elements into parts that hang together. \param nodes  m × k
+py::array_t<int> partsOf(const Row<idx_t>& nodes, idx_t numNodes, idx_t numParts, idx_t common) {
+  idx_t count = static_cast<idx_t>(nodes.shape(0)), zero = 0, one = 1, cut = 0, *starts = nullptr,
+        *others = nullptr;
+  std::vector<idx_t> first(count + 1), copy(nodes.data(), nodes.data() + nodes.size());
+  for (idx_t k = 0; k <= count; ++k)
+    first[k] = k * static_cast<idx_t>(nodes.shape(1));
+  std::vector<int> parts(count, 0);
+  if (METIS_MeshToDual(&count, &numNodes, first.data(), copy.data(), &common, &zero, &starts, &others) !=
+      METIS_OK)
+    throw InputError("METIS does not take these elements");
+  std::array<idx_t, METIS_NOPTIONS> options{};
+  METIS_SetDefaultOptions(options.data());
+  options[METIS_OPTION_CONTIG] = 1;
+  const int status =
+      numParts < 2 ? METIS_OK
+                   : METIS_PartGraphKway(&count, &one, starts, others, nullptr, nullptr, nullptr, &numParts,
+                                         nullptr, nullptr, options.data(), &cut, parts.data());
+  METIS_Free(starts);
+  METIS_Free(others);
+  if (status != METIS_OK)
+    throw InputError("METIS cannot cut these elements into " + std::to_string(numParts) +
+                     " parts that hang together");
+  return arrayOf(std::move(parts));
+}
+
+} // namespace
+
+void defineMatrices(py::module_& module) {
+  py::class_<Problem>(module, "Problem")
+      .def(py::init<int, int, std::vector<std::string>>())
+      .def("add", &Problem::add)
+      .def("add_elements", &Problem::addElements)
+      .def("set_contact", &Problem::setContact)
+      .def("complete", &Problem::complete)
+      .def("solve", &Problem::solve);
+  module.def("parts_of", &partsOf);
+  module.def("solver_schema", [] { return schemaOf(ContactSolver::validParameters()); });
+}
+
+} // namespace epafi::python

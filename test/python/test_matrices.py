@@ -1,0 +1,138 @@
+#!/usr/bin/python3
+"""test_matrices.py: contact of matrices of one's own, beside dense solutions."""
+
+import sys
+import unittest
+
+import numpy
+import scipy.sparse
+
+import epafi
+
+
+def membrane(columns, rows, x0=0.0):
+    """Coordinates, nodes of elements, and matrices of bilinear squares with the conductivity 1."""
+    i, j = numpy.meshgrid(numpy.arange(columns + 1), numpy.arange(rows + 1))
+    coordinates = numpy.column_stack([x0 + i.ravel() / columns, j.ravel() / rows])
+    corner = (numpy.arange(rows)[:, None] * (columns + 1) + numpy.arange(columns)).ravel()
+    nodes = corner[:, None] + [0, 1, columns + 2, columns + 1]
+    square = numpy.array([[4, -1, -2, -1], [-1, 4, -1, -2], [-2, -1, 4, -1], [-1, -2, -1, 4]]) / 6
+    return coordinates, nodes, numpy.broadcast_to(square, (len(nodes), 4, 4))
+
+
+def blocks(columns, rows):
+    """The same of plane strain, E = 1, nu = 0: two unknowns a node."""
+    coordinates, nodes, _ = membrane(columns, rows)
+    law, hx, hy = numpy.diag([1, 1, 0.5]), 1 / columns, 1 / rows
+    matrix = numpy.zeros((8, 8))
+    for x in (-3 ** -0.5, 3 ** -0.5):
+        for y in (-3 ** -0.5, 3 ** -0.5):
+            strain = numpy.zeros((3, 8))
+            for a, (sx, sy) in enumerate([(-1, -1), (1, -1), (1, 1), (-1, 1)]):
+                strain[0, 2 * a] = strain[2, 2 * a + 1] = sx * (1 + sy * y) / (2 * hx)
+                strain[1, 2 * a + 1] = strain[2, 2 * a] = sy * (1 + sx * x) / (2 * hy)
+            matrix += strain.T @ law @ strain * hx * hy / 4
+    unknowns = (2 * nodes[:, :, None] + [0, 1]).reshape(len(nodes), 8)
+    return coordinates, unknowns, numpy.broadcast_to(matrix, (len(nodes), 8, 8))
+
+
+def summed(unknowns, matrices, size):
+    row = numpy.repeat(unknowns, unknowns.shape[1], axis=1).ravel()
+    column = numpy.tile(unknowns, unknowns.shape[1]).ravel()
+    return scipy.sparse.csr_matrix((numpy.ravel(matrices), (row, column)), shape=(size, size))
+
+
+class Matrices(unittest.TestCase):
+    def shelf_and_cloth(self, n, parts=None):
+        """The membranes of README.md: a shelf held at its left edge, a cloth whose weight presses on its right one."""
+        problem = epafi.Problem(2, components=1)
+        bodies = [membrane(n, n, x0) for x0 in (0.0, 1.0)]
+        held = {k * (n + 1): 0.0 for k in range(n + 1)}
+        numbers = []
+        for body, ((coordinates, nodes, matrices), own) in enumerate(zip(bodies, (held, None))):
+            if parts is None:
+                k = summed(nodes, matrices, len(coordinates))
+                numbers.append(problem.add_body(k, coordinates, held=own, name=("shelf", "cloth")[body]))
+            else:
+                numbers.append(problem.add_elements(nodes, matrices, coordinates, parts=parts, held=own))
+        edge = numpy.arange(n + 1) * (n + 1)
+        rows = scipy.sparse.csr_matrix((numpy.tile([1.0, -1.0], n + 1), (numpy.repeat(numpy.arange(n + 1), 2), numpy.column_stack(
+            [numbers[0][0] + edge + n, numbers[1][0] + edge]).ravel())), shape=(n + 1, problem.unknowns))
+        problem.set_contact(rows, 0)
+        loads = numpy.zeros(problem.unknowns)
+        numpy.add.at(loads, bodies[1][1] + numbers[1][0], -0.25 / n ** 2)
+        return problem, loads, rows
+
+    def test_whole_and_cut_bodies_have_the_solution_of_the_scene(self):
+        scene = epafi.solve({"Bodies": {
+            "shelf": {"Order": 1, "Rectangle": [0, 1, 0, 1], "Elements": [16, 16], "Supports": {"wall": {"Edge": "left"}}},
+            "cloth": {"Order": 1, "Rectangle": [1, 2, 0, 1], "Elements": [16, 16], "Loads": {"weight": {"Value": -1}}}},
+            "Contact": {"seam": {"First Body": "shelf", "First Edge": "right", "Second Body": "cloth", "Second Edge": "left"}},
+            "Solver": {"Tolerance": 1e-12}})
+        for parts in (None, 5, numpy.arange(256) // 64):
+            problem, loads, rows = self.shelf_and_cloth(16, parts)
+            solution = problem.solve(loads, tolerance=1e-12)
+            self.assertAlmostEqual(solution.energy, scene.energy, delta=1e-10)
+            self.assertAlmostEqual(solution.forces.sum(), 1, delta=1e-9)
+            self.assertLess((rows @ solution.u).max(), 1e-9)
+            self.assertEqual(solution.subdomains, {None: 2, 5: 10}.get(parts if numpy.ndim(parts) == 0 else 0, 8))
+
+    def test_loads_and_gaps_change_without_new_factors(self):
+        problem, loads, _ = self.shelf_and_cloth(8, 3)
+        first = problem.solve(loads, tolerance=1e-11)
+        double = problem.solve(2 * loads)
+        numpy.testing.assert_allclose(double.u, 2 * first.u, atol=1e-8)
+        self.assertEqual(double.setup_seconds, first.setup_seconds)
+        moved = problem.solve(loads, gaps=numpy.full(9, 0.5))  # the cloth hangs lower by the gap
+        self.assertAlmostEqual((moved.u - first.u)[81:].mean(), -0.5, delta=1e-8)
+
+    def test_eliminated_supports_are_as_good_as_held_ones(self):
+        coordinates, unknowns, matrices = blocks(4, 4)
+        k, bottom = summed(unknowns, matrices, 50), numpy.arange(10)
+        free = numpy.arange(10, 50)
+        top = scipy.sparse.csr_matrix((numpy.ones(5), (numpy.arange(5), 41 + 2 * numpy.arange(5))), shape=(5, 50))
+        loads = numpy.zeros(50)
+        loads[41::2] = 0.1
+        found = []
+        for arguments in (dict(stiffness=k, held=dict.fromkeys(bottom, 0.0)), dict(stiffness=k[free][:, free], unknowns=free)):
+            problem = epafi.Problem(2)
+            problem.add_body(coordinates=coordinates, **arguments)
+            problem.set_contact(top, 0.05)
+            found.append(problem.solve(loads, tolerance=1e-12))
+        numpy.testing.assert_allclose(found[0].u, found[1].u, atol=1e-11)
+        self.assertAlmostEqual((top @ found[0].u).max(), 0.05, delta=1e-11)
+
+    def test_friction_holds_what_would_slide(self):
+        coordinates, unknowns, matrices = blocks(4, 4)
+        bottom = scipy.sparse.csr_matrix((-numpy.ones(5), (numpy.arange(5), 1 + 2 * numpy.arange(5))), shape=(5, 50))
+        loads = numpy.zeros(50)
+        loads[41::2], loads[40::2] = -1.0, 0.2  # pressed down, and pulled aside by a fifth of it
+        problem = epafi.Problem(2)
+        problem.add_elements(unknowns, matrices, coordinates, parts=2)
+        problem.set_contact(bottom, 0, friction=0.6)
+        solution = problem.solve(loads, tolerance=1e-10)
+        self.assertAlmostEqual(solution.forces.sum(), 5, delta=1e-7)
+        slides = epafi.Problem(2)
+        slides.add_elements(unknowns, matrices, coordinates, parts=2, name="block")
+        slides.set_contact(bottom, 0)
+        with self.assertRaisesRegex(epafi.SolvabilityError, "block"):
+            slides.solve(loads)
+
+    def test_what_does_not_fit_is_refused_in_a_sentence(self):
+        coordinates, nodes, matrices = membrane(2, 2)
+        k = summed(nodes, matrices, 9)
+        for wrong, sentence in (
+                (lambda p: p.add_body(k, coordinates[:, :1]), "coordinates have shape"),
+                (lambda p: p.add_body(k[:5, :5], coordinates), "has 5 rows, but the body 9"),
+                (lambda p: p.add_elements(nodes + 1, matrices, coordinates), "numbered from 0 to 8"),
+                (lambda p: p.add_elements(nodes, matrices[:3], coordinates), "element matrices have shape"),
+                (lambda p: p.add_elements(nodes, matrices, coordinates, parts=[0, 1]), "2 numbers of parts"),
+                (lambda p: (p.add_body(k, coordinates), p.solve([1.0])), "loads have shape"),
+                (lambda p: (p.add_body(k, coordinates, held={0: 0}), p.solve(numpy.ones(9), parameters={"Tolerence": 1})),
+                 "Tolerence")):
+            with self.subTest(sentence), self.assertRaisesRegex(epafi.InputError, sentence):
+                wrong(epafi.Problem(2, components=1))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
