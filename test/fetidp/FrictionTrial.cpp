@@ -158,7 +158,7 @@ void Trial::drawJumps(const ConstraintMatrix& contact, FrictionRows& friction) {
 
 void Trial::solve() {
   solver = std::make_unique<ContactSolver>(
-      Teuchos::ParameterList().set("Tolerance", 1e-10).set("Equilibrium Tolerance", 1e-10));
+      Teuchos::ParameterList().set("Tolerance", 5e-11).set("Equilibrium Tolerance", 5e-11));
   try {
     solver->setup(problem->problem(), data);
     solution = solver->solve(data);
