@@ -6,11 +6,13 @@
 #include "epafi/scene/ModelProblem.hpp"
 #include "epafi/simulation/RunResult.hpp"
 #include "epafi/simulation/SceneRun.hpp"
+#include "epafi/simulation/StepRun.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -118,6 +120,75 @@ TEST_F(SupportResultsTest, ABodyOnAnotherOneHandsItsLoadDownAlsoWhereContactMeet
       expectNear(sum, expected, 1e-8);
       EXPECT_GT(held[1].force[up], 0.1); // the held side carries a part of it
     }
+}
+
+TEST_F(SupportResultsTest, WallsHoldTheTensionOfATiedRodInTwoParts) {
+  for (const int across : {2, 3}) // beside 2: meshed alike, then apart
+    for (const int order : {1, 2}) {
+      SCOPED_TRACE(std::to_string(across) + ", order " + std::to_string(order));
+      scene::Scene scene;
+      scene.bodies = {test::block("lower", {{0, 0, 0}, {1, 1, 1}}, {2, 2, 2}, test::cutByMetis(2)),
+                      test::block("upper", {{0, 0, 1}, {1, 1, 2}}, {across, across, 2}, test::cutByMetis(2))};
+      for (scene::Body& body : scene.bodies) { // planes that hold nodes of the joint, too
+        body.mesh.order = order;
+        body.supports = {test::slide("left"), test::slide("front")};
+      }
+      scene.bodies[0].supports.push_back(test::slide("bottom"));
+      scene.bodies[1].supports.push_back({"pull", "top", {std::nullopt, std::nullopt, 0.02}});
+      scene.contacts = {test::between("joint", 0, "top", 1, "bottom")};
+      scene.contacts[0].kind = scene::SurfaceContact::Kind::tied;
+      const std::vector<SupportResult> held = supports(scene); // E ε = 200 · 0.01 on an area of 1
+      for (std::size_t s = 0; s < held.size(); ++s)
+        expectNear(held[s].force, {0, 0, s == 2 ? -2.0 : s == 5 ? 2.0 : 0}, 1e-8);
+    }
+}
+
+TEST_F(SupportResultsTest, SolidsOfRevolutionAreHeldAllAround) {
+  for (const int order : {1, 2}) {
+    scene::Scene scene;
+    scene.bodies = {test::block("disc", mesh::rectangle(0, 2, 0, 1), {4, 2, 0}, test::cutByMetis(2))};
+    scene.bodies[0].physics = fem::Physics::axisymmetric;
+    scene.bodies[0].mesh.order = order;
+    scene.bodies[0].supports = {test::slide("bottom")};
+    scene.bodies[0].loads = {{"press", Load::pressure, {}, "top", {}, {3, 0, 0}}};
+    expectNear(supports(scene)[0].force, {0, 3 * std::numbers::pi * 4, 0}, 1e-9);
+  }
+}
+
+TEST_F(SupportResultsTest, WallsHoldWhatHeatWouldExpand) {
+  scene::Scene scene;
+  scene.bodies = {cube()};
+  scene.bodies[0].material.expansion = 1e-3;
+  scene.bodies[0].supports = {test::slide("left"), test::slide("right"), test::slide("front"),
+                              test::slide("bottom")};
+  scene.bodies[0].loads = {{"heat", Load::temperature, {}, "", {}, {10, 0, 0}}};
+  const std::vector<SupportResult> held = supports(scene); // E α ΔT = 2 on an area of 1
+  expectNear(held[0].force, {2, 0, 0}, 1e-9);
+  expectNear(held[1].force, {-2, 0, 0}, 1e-9);
+  expectNear(held[2].force, {0, 0, 0}, 1e-9);
+}
+
+TEST_F(SupportResultsTest, ASupportThatComesWithAStepHoldsWhatTheLoadHasStrained) {
+  scene::Scene scene;
+  scene.bodies = {cube()};
+  scene.bodies[0].supports = {
+      test::slide("left"), test::slide("front"), test::slide("bottom"), {"grip", "right", {0.0, {}, {}}}};
+  scene.bodies[0].loads = {{"pull", Load::traction, {}, "right", {}, {3, 0, 0}}};
+  const scene::Step::Place grip{0, 3}, pull{0, 0};
+  scene::Step stretch, hold;
+  stretch.name = "stretch";
+  stretch.states = {{grip, scene::SupportState::off}};
+  hold.name = "hold";
+  hold.states = {{grip, scene::SupportState::fixed}};
+  hold.loads = {{pull, 0.0}};
+  const SceneRun run =
+      solveSteps(scene, {stretch, hold}, Teuchos::ParameterList().set("Tolerance", 1e-12), comm_, {}, {});
+  const std::vector<StepResult>& steps = run.result.steps;
+  ASSERT_EQ(steps.size(), 2U);
+  ASSERT_EQ(steps[0].supports.size(), 3U); // the grip is not there
+  expectNear(steps[0].supports[0].force, {-3, 0, 0}, 1e-9);
+  expectNear(steps[1].supports[0].force, {-3, 0, 0}, 1e-9);
+  expectNear(steps[1].supports[3].force, {3, 0, 0}, 1e-9);
 }
 
 TEST_F(SupportResultsTest, MembranesAreHeldAlongZ) {
