@@ -11,18 +11,72 @@ from . import cells, style
 MARGIN = 0.35  # of the closed part's size is shown around it
 
 
-def frame(pair):
-    """Two directions in the contact surface and what to call them: coordinates where the surface is normal to one."""
-    normal = pair.normal.mean(axis=0)
-    length = numpy.linalg.norm(normal)
-    normal = normal / length if length > 1e-6 else numpy.array([0.0, 0.0, 1.0])
-    across = int(numpy.argmax(numpy.abs(normal)))
-    kept = [d for d in range(3) if d != across]
-    if abs(normal[across]) > 0.999:
-        return numpy.eye(3)[kept], [f"{'xyz'[d]} [length]" for d in kept]
-    first = numpy.eye(3)[kept[0]] - normal[kept[0]] * normal
-    first /= numpy.linalg.norm(first)
-    return numpy.array([first, numpy.cross(normal, first)]), ["along the surface [length]", "across [length]"]
+def heaviest(pair):
+    """The normal of the closed part, by pressure, else that of all nodes; not of length 1."""
+    weights = numpy.where(pair.active, numpy.maximum(pair.pressure, 0.0), 0.0)
+    return weights @ pair.normal if weights.any() else pair.normal.sum(axis=0)
+
+
+class Flat:
+    """As seen along the normal of what is closed; facets that face away are left out."""
+
+    def __init__(self, pair):
+        normal = heaviest(pair)
+        length = numpy.linalg.norm(normal)
+        normal = normal / length if length > 1e-6 else numpy.array([0.0, 0.0, 1.0])
+        across = int(numpy.argmax(numpy.abs(normal)))
+        kept = [d for d in range(3) if d != across]
+        self.labels = [f"{'xyz'[d]} [length]" for d in kept]
+        self.axes = numpy.eye(3)[kept]
+        if abs(normal[across]) <= 0.999:
+            first = numpy.eye(3)[kept[0]] - normal[kept[0]] * normal
+            first /= numpy.linalg.norm(first)
+            self.axes = numpy.array([first, numpy.cross(normal, first)])
+            self.labels = ["along the surface [length]", "across [length]"]
+        self.faces = pair.normal @ normal > 0
+
+    def place(self, points):
+        return points @ self.axes.T
+
+    def shown(self, cells, place):
+        """Of this side; of the other one, whose normals are not known, all."""
+        whole = self.faces[cells].all(axis=1) if len(place) == len(self.faces) else numpy.ones(len(cells), bool)
+        return cells[whole] if whole.any() else cells
+
+
+class Unrolled:
+    """A cylinder, cut open opposite of what is closed."""
+
+    def __init__(self, pair, axis):
+        middle = heaviest(pair)
+        middle = middle - middle @ axis * axis
+        if numpy.linalg.norm(middle) < 1e-6 * len(pair.normal):
+            middle = pair.normal[0] - pair.normal[0] @ axis * axis
+        first = middle / numpy.linalg.norm(middle)
+        self.axes = numpy.array([first, numpy.cross(axis, first), axis])
+        points, normals = pair.points @ self.axes[:2].T, pair.normal @ self.axes[:2].T
+        # Where all normals meet: p - r n = c.
+        ones, zeros = numpy.ones(len(points)), numpy.zeros(len(points))
+        rows = numpy.concatenate([numpy.column_stack([ones, zeros, normals[:, 0]]),
+                                  numpy.column_stack([zeros, ones, normals[:, 1]])])
+        *self.centre, self.radius = numpy.linalg.lstsq(rows, points.T.reshape(-1), rcond=None)[0]
+        self.labels = ["around [length]", "along the axis [length]"]
+
+    def place(self, points):
+        turned = points @ self.axes.T
+        x, y = (turned[:, :2] - self.centre).T / self.radius
+        return numpy.column_stack([abs(self.radius) * numpy.arctan2(y, x), turned[:, 2]])
+
+    def shown(self, cells, place):
+        """But those that the cut goes through."""
+        return cells[numpy.ptp(place[cells][:, :, 0], axis=1) < numpy.pi * abs(self.radius)]
+
+
+def view(pair):
+    """Unrolled where normals turn about one axis, by more than 60 degrees to either side."""
+    sizes, directions = numpy.linalg.eigh(pair.normal.T @ pair.normal / len(pair.normal))
+    turns = numpy.linalg.norm(pair.normal.mean(axis=0)) < 0.8
+    return Unrolled(pair, directions[:, 0]) if turns and sizes[0] < 1e-3 else Flat(pair)
 
 
 def window(place, active):
@@ -36,7 +90,7 @@ def window(place, active):
     return low - edge, high + edge
 
 
-def draw_points(axes, place, pair):
+def draw_points(axes, place, pair, _seen):
     """Where no facet of the surface is whole: the nodes alone."""
     return axes.scatter(*place.T, c=pair.pressure, cmap="YlOrRd", vmin=0, s=60, edgecolors=style.BLACK, linewidths=0.5)
 
@@ -51,37 +105,39 @@ def fan(place, facets, *values):
     return (Triangulation(*every.T, triangles), *(numpy.concatenate([value, value[facets].mean(axis=1)]) for value in values))
 
 
-def draw_facets(axes, place, pair):
-    triangulation, shades, closed = fan(place, pair.cells, numpy.maximum(pair.pressure, 0.0), pair.active.astype(float))
+def draw_facets(axes, place, pair, seen):
+    shown_cells = seen.shown(pair.cells, place)
+    triangulation, shades, closed = fan(place, shown_cells, numpy.maximum(pair.pressure, 0.0), pair.active.astype(float))
     largest = float(pair.pressure.max())
     shown = axes.tripcolor(triangulation, shades, shading="gouraud",
                            cmap="YlOrRd", vmin=0, vmax=largest if largest > 0 else 1.0, rasterized=True)
-    ends, meeting = cells.edges(pair.cells)
+    ends, meeting = cells.edges(shown_cells)
     axes.add_collection(LineCollection(place[ends], colors=[(0, 0, 0, 0.18 if len(ends) < 6000 else 0.05)], linewidths=0.3))
     axes.add_collection(LineCollection(place[ends[meeting[:, 1] < 0]], colors=style.BLACK, linewidths=1.0))
     if pair.facing is not None:
         points, facets = pair.facing
-        ends, _ = cells.edges(facets)
-        axes.add_collection(LineCollection((points @ frame(pair)[0].T)[ends], colors=style.GREEN, linewidths=0.4, alpha=0.7))
+        others = seen.place(points)
+        ends, _ = cells.edges(seen.shown(facets, others))
+        axes.add_collection(LineCollection(others[ends], colors=style.GREEN, linewidths=0.4, alpha=0.7))
     if pair.active.any() and not pair.active.all():
         axes.tricontour(triangulation, closed, levels=[0.5], colors=[style.BLUE], linewidths=1.8)
     return shown
 
 
 def figure(run, pair):
-    axes_of, labels = frame(pair)
-    place = pair.points @ axes_of.T
+    seen = view(pair)
+    place = seen.place(pair.points)
     low, high = window(place, pair.active)
     ratio = float((high - low)[1] / (high - low)[0])
     picture, axes = pyplot.subplots(figsize=(8.4, float(numpy.clip(6.6 * ratio + 1.4, 3.4, 8.2))))
     axes.grid(False)
     draw = draw_facets if pair.cells is not None and pair.cells.shape[1] >= 3 else draw_points
-    shown = draw(axes, place, pair)
+    shown = draw(axes, place, pair, seen)
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_aspect("equal")
-    axes.set_xlabel(labels[0])
-    axes.set_ylabel(labels[1])
+    axes.set_xlabel(seen.labels[0])
+    axes.set_ylabel(seen.labels[1])
     bar = picture.colorbar(shown, ax=axes, shrink=0.85, pad=0.03, aspect=26)
     bar.set_label("contact pressure [force per area]")
     bar.outline.set_visible(False)

@@ -11,9 +11,9 @@ sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), sys.argv[1]]
 
 import elastic_runs  # noqa: E402
 import numpy  # noqa: E402
-from plot import cells, part, render  # noqa: E402
+from plot import cells, part, pressure, render  # noqa: E402
 from plot.errors import PlotError  # noqa: E402
-from plot.run import read_run  # noqa: E402
+from plot.run import Contact, read_run  # noqa: E402
 
 
 class Surfaces(unittest.TestCase):
@@ -29,6 +29,40 @@ class Surfaces(unittest.TestCase):
             else:
                 normal = render.normals(points[facets])
             self.assertTrue(((normal * outwards).sum(axis=1) > 0).all(), cell_type)
+
+    def test_cylinders_are_unrolled_at_their_true_lengths_and_cut_opposite_of_what_is_closed(self):
+        """A skew one of radius 3 and length 4, a bore or a pin, in quadrilaterals; planes stay as they are."""
+        frame = numpy.linalg.qr(numpy.array([[1.0, 2, 3], [0, 1, -1], [2, 0, 1]]))[0]
+        angle, height = (part.ravel() for part in numpy.meshgrid(numpy.arange(24) * numpy.pi / 12, numpy.linspace(0, 4, 5)))
+        radial = numpy.column_stack([numpy.cos(angle), numpy.sin(angle), 0 * angle]) @ frame.T
+        points = 3 * radial + height[:, None] * frame[:, 2] + [7, -5, 2]
+        facets = numpy.array([(24 * k + i, 24 * k + (i + 1) % 24, 24 * (k + 1) + (i + 1) % 24, 24 * (k + 1) + i)
+                              for k in range(4) for i in range(24)])
+        closed = numpy.cos(angle - 1) > 0.9
+        for sense in (1, -1):
+            zeros = numpy.zeros(len(points))
+            pair = Contact("c", "c", points, zeros, zeros, closed, zeros, closed.astype(float), sense * radial, facets)
+            seen = pressure.view(pair)
+            place = seen.place(points)
+            self.assertAlmostEqual(abs(place[closed][:, 0].mean()), 0, delta=3 * numpy.pi / 24)
+            shown = seen.shown(facets, place)
+            self.assertEqual(len(shown), 4 * 23)
+            arcs = numpy.ptp(place[shown][:, :, 0], axis=1), numpy.ptp(place[shown][:, :, 1], axis=1)
+            numpy.testing.assert_allclose(arcs[0], 3 * numpy.pi / 12, rtol=1e-9)
+            numpy.testing.assert_allclose(arcs[1], 1, rtol=1e-9)
+        flat = Contact("c", "c", points, zeros, zeros, closed, zeros, closed.astype(float), numpy.tile([0, 0, 1.0], (len(points), 1)), facets)
+        numpy.testing.assert_array_equal(pressure.view(flat).place(points), points[:, :2])
+
+    def test_of_balls_what_faces_away_is_not_drawn_over_what_is_pressed(self):
+        rng = numpy.random.default_rng(3)
+        normal = rng.normal(size=(400, 3))
+        normal /= numpy.linalg.norm(normal, axis=1)[:, None]
+        zeros, closed = numpy.zeros(400), normal[:, 1] > 0.95
+        facets = rng.integers(0, 400, (300, 3))
+        seen = pressure.view(Contact("c", "c", normal, zeros, zeros, closed, zeros, closed.astype(float), normal, facets))
+        shown = seen.shown(facets, seen.place(normal))
+        self.assertTrue(0 < len(shown) < len(facets))
+        self.assertGreater((normal[shown][:, :, 1]).min(), -0.3)
 
     def test_cells_of_several_shapes_have_the_facets_of_their_shapes(self):
         # A cube, a prism and a pyramid at its sides, and a tetrahedron on the pyramid: 4 + 4 + 3 + 3 facets are outside.
