@@ -47,6 +47,8 @@ SparseMatrix unknownsFromValues(const Subdomain& subdomain) {
 SparseMatrix onValues(const Subdomain& subdomain) {
   const SparseMatrix t = unknownsFromValues(subdomain);
   SparseMatrix k = t.transpose() * *subdomain.stiffness * t;
+  if (k.nonZeros() == 0)
+    return k;
   const double largest = k.coeffs().cwiseAbs().maxCoeff();
   k.prune([largest](int row, int column, double value) {
     return row == column || std::abs(value) > 1e-13 * largest;

@@ -153,10 +153,12 @@ void requireNeedsMet(const Models& models, const Comm& comm) {
 } // namespace
 
 void requireKernel(const SparseMatrix& k, const Eigen::MatrixXd& r, const std::string& body) {
+  if (r.size() == 0) // held, or without an unknown of its own
+    return;
   const Eigen::MatrixXd motions = r.transpose(); // a node's values side by side: K is read once
   const Eigen::ArrayXd largest = motions.cwiseAbs().rowwise().maxCoeff();
   Eigen::ArrayXd sum(r.cols()), magnitude(r.cols());
-  for (Eigen::Index j = 0; r.cols() > 0 && j < k.cols(); ++j) {
+  for (Eigen::Index j = 0; j < k.cols(); ++j) {
     sum.setZero();
     magnitude = leastMagnitude * k.coeff(j, j) * largest;
     for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry) { // K is symmetric: columns are rows

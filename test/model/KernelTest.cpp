@@ -43,5 +43,13 @@ TEST(KernelTest, AModeThatTheMatrixDoesNotKnowIsAFault) {
   }
 }
 
+// A subdomain that is held everywhere, as a rigid block under a deck's contact is, has no row; one that is held
+// enough has no mode.
+TEST(KernelTest, WhatHasNoRowOrNoModeHasNoFault) {
+  EXPECT_NO_THROW(requireKernel(decomposition::SparseMatrix(0, 0), Eigen::MatrixXd(0, 6), "block"));
+  EXPECT_NO_THROW(requireKernel(decomposition::SparseMatrix(0, 0), Eigen::MatrixXd(0, 0), "block"));
+  EXPECT_NO_THROW(requireKernel(decomposition::SparseMatrix(3, 3), Eigen::MatrixXd(3, 0), "block"));
+}
+
 } // namespace
 } // namespace epafi::model
