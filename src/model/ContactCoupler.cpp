@@ -37,7 +37,10 @@ bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLa
 
 contact::Obstacle obstacleOf(const scene::Obstacle& obstacle) {
   using Kind = contact::Obstacle::Kind;
-  return {static_cast<Kind>(obstacle.kind),
+  using Asked = scene::Obstacle::Kind;
+  return {obstacle.kind == Asked::plane    ? Kind::plane
+          : obstacle.kind == Asked::sphere ? Kind::sphere
+                                           : Kind::cylinder,
           {obstacle.point[0], obstacle.point[1], obstacle.point[2]},
           {obstacle.normal[0], obstacle.normal[1], obstacle.normal[2]},
           obstacle.radius,

@@ -122,6 +122,31 @@ TEST_F(SupportResultsTest, ABodyOnAnotherOneHandsItsLoadDownAlsoWhereContactMeet
     }
 }
 
+TEST_F(SupportResultsTest, ABlockThatIsHeldEverywhereBearsAsAnObstacleDoes) {
+  for (const int dimension : {2, 3})
+    for (const int across : {1, 3}) { // nodes that face each other, then mortars
+      SCOPED_TRACE(std::to_string(dimension) + ", " + std::to_string(across));
+      const int up = dimension - 1, deep = dimension == 3 ? 1 : 0;
+      mesh::Box lower{{0, 0, 0}, {1, 1, dimension - 2.0}}, upper = lower;
+      upper.lower[up] = 1;
+      upper.upper[up] = 2;
+      scene::Scene scene;
+      scene.bodies = {test::block("lower", lower, {1, 1, deep}, test::cutByMetis(1)),
+                      test::block("upper", upper, {across, 2, deep * 2}, test::cutByMetis(2))};
+      scene.bodies[0].supports = {{"base", "bottom", {0.0, 0.0, 0.0}}, {"roof", "top", {0.0, 0.0, 0.0}}};
+      scene.bodies[1].supports = {test::slide("left")};
+      if (dimension == 3)
+        scene.bodies[1].supports.push_back(test::slide("front"));
+      scene.bodies[1].loads = {{"press", Load::pressure, {}, "top", {}, {6, 0, 0}}};
+      scene.contacts = {test::between("joint", 0, "top", 1, "bottom")};
+      const std::vector<SupportResult> held = supports(scene);
+      std::array<double, 3> none{}, expected{};
+      expected[up] = 6;
+      expectNear(held[0].force, none, 1e-8);
+      expectNear(held[1].force, expected, 1e-8);
+    }
+}
+
 TEST_F(SupportResultsTest, WallsHoldTheTensionOfATiedRodInTwoParts) {
   for (const int across : {2, 3}) // beside 2: meshed alike, then apart
     for (const int order : {1, 2}) {
