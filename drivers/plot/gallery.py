@@ -50,7 +50,7 @@ def draw_run(file, canvas, box, step):
         yield canvas.save(mesh.figure(shown), f"{stem}_mesh")
     for pair in run.contacts:
         if len(pair.points) > 0:
-            drawn = pressure.figure(run, pair) if in_space else contact.figure(run, pair)
+            drawn = pressure.figure(run, pair) if in_space or pair.is_surface() else contact.figure(run, pair)
             yield canvas.save(drawn, f"{stem}_contact_{pair.group}")
     if convergence.can_draw(run.history):
         yield canvas.save(convergence.figure(run.history, run.title), f"{stem}_convergence")

@@ -1,4 +1,4 @@
-"""Contact pressure of elastic bodies: along a contact line in the plane, on a contact surface in space."""
+"""Contact pressure on a surface: of a body in space, or of a membrane over an obstacle."""
 
 import matplotlib.pyplot as pyplot
 import numpy
@@ -131,7 +131,7 @@ def figure(run, pair):
     ratio = float((high - low)[1] / (high - low)[0])
     picture, axes = pyplot.subplots(figsize=(8.4, float(numpy.clip(6.6 * ratio + 1.4, 3.4, 8.2))))
     axes.grid(False)
-    draw = draw_facets if pair.cells is not None and pair.cells.shape[1] >= 3 else draw_points
+    draw = draw_facets if pair.is_surface() else draw_points
     shown = draw(axes, place, pair, seen)
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])

@@ -62,6 +62,10 @@ class Contact:
     traction: numpy.ndarray = None  # n x 3, of friction on the second side
     friction_state: numpy.ndarray = None  # 0 open, 1 slips, 2 sticks
 
+    def is_surface(self):
+        """Of a body in space, or of a membrane over an obstacle."""
+        return self.cells is not None and self.cells.shape[1] > 2
+
     def curves(self):
         """Rows in their order along the contact line, in the plane; several lists if the line has gaps."""
         if self.cells is not None and self.cells.shape[1] == 2:
@@ -108,6 +112,10 @@ class Run:
 
     def is_elastic(self):
         return all(body.von_mises is not None for body in self.bodies)
+
+    def lines(self):
+        """Contacts along lines."""
+        return [pair for pair in self.contacts if not pair.is_surface()]
 
     def is_plane(self):
         return all(is_plane(body.cell_type) for body in self.bodies)

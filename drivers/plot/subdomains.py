@@ -104,7 +104,7 @@ def figure(run):
     crosspoints = numpy.concatenate([body.crosspoints for body in run.bodies])
     dots = float(numpy.clip(900 / max(len(crosspoints), 1), 5, 42))
     axes.scatter(crosspoints[:, 0], crosspoints[:, 1], s=dots, color=style.BLACK, zorder=5, linewidths=0, clip_on=False)
-    for pair in run.contacts:
+    for pair in run.lines():
         for curve in pair.curves():
             axes.plot(*pair.points[curve, :2].T, color=style.VERMILLION, linewidth=3.4, zorder=4, solid_capstyle="butt")
     axes.set_aspect("equal")
@@ -122,7 +122,7 @@ def legend(picture, axes, run, crosspoints):
     handles = [Patch(facecolor=style.AREAS[0], edgecolor="#444444", label="subdomain")]
     if crosspoints:
         handles.append(Line2D([], [], color=style.BLACK, marker="o", markersize=5, linestyle="none", label="crosspoint"))
-    if run.contacts:
+    if run.lines():
         handles.append(Line2D([], [], color=style.VERMILLION, linewidth=3.4, label="contact line"))
     axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=style.below(picture, axes),
                 ncol=len(handles))

@@ -55,7 +55,7 @@ def active_segments(trace, active):
 
 def draw_contacts(axes, run):
     closed = False
-    for pair in run.contacts:
+    for pair in run.lines():
         for index, trace in enumerate(traces(run, pair)):
             axes.add_collection3d(Line3DCollection([trace], colors=style.BLACK, linewidths=1.2, zorder=3))
             if index > 0:
@@ -106,7 +106,7 @@ def figure(run):
     bar.outline.set_visible(False)
     names = ", ".join(body.name for body in run.bodies[:4]) + (", …" if len(run.bodies) > 4 else "")
     axes.set_title(f"Deflection of {names} — {run.title}", pad=0, y=0.98)
-    handles = [Line2D([], [], color=style.BLACK, linewidth=1.2, label="contact line")] if run.contacts else []
+    handles = [Line2D([], [], color=style.BLACK, linewidth=1.2, label="contact line")] if run.lines() else []
     if closed:
         handles.append(Line2D([], [], color=style.ACTIVE, linewidth=4, label="contact closed"))
     if handles:

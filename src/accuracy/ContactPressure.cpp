@@ -21,6 +21,8 @@ using contact::ContactLayout;
 }
 
 void requireCovered(const scene::SurfaceContact& terms, const ContactLayout& contact) {
+  if (terms.coversBody())
+    refuse(contact, "obstacles under membranes");
   if (terms.hasFriction())
     refuse(contact, "friction");
   if (terms.stiffness > 0)

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,20 +19,43 @@ constexpr double beside = 0.2;
 
 /// Direction from a point to the nearest one of an obstacle, and the distance.
 struct Approach {
-  Vector3d direction;
+  Vector3d direction; ///< of a deflection ±1 and zeros
   double gap;
 };
 
-Approach approachTo(const Obstacle& obstacle, const Vector3d& point, int dimension) {
+std::optional<Approach> approachTo(const Obstacle& obstacle, const Vector3d& point, int dimension) {
   Vector3d offset = point - obstacle.point;
   if (dimension == 2)
     offset[2] = 0;
   if (obstacle.kind == Obstacle::Kind::plane)
-    return {-obstacle.normal, obstacle.normal.dot(offset)};
+    return Approach{-obstacle.normal, obstacle.normal.dot(offset)};
   if (obstacle.kind == Obstacle::Kind::cylinder)
     offset -= obstacle.normal.dot(offset) * obstacle.normal;
   const double outwards = obstacle.isHollow ? -1 : 1;
-  return {-outwards * offset.normalized(), outwards * (offset.norm() - obstacle.radius)};
+  return Approach{-outwards * offset.normalized(), outwards * (offset.norm() - obstacle.radius)};
+}
+
+/// What may stop the deflection at a point of a membrane at z = 0, and how far away it is; nothing: a line
+/// along z misses the obstacle. \throws InputError if it is cut in halves
+std::optional<Approach> approachAlongZ(const ContactTerms& contact, const Obstacle& obstacle,
+                                       const Vector3d& point) {
+  Vector3d offset = point - obstacle.point, z(0, 0, 1);
+  if (obstacle.kind == Obstacle::Kind::plane)
+    return Approach{Vector3d(-std::copysign(1, obstacle.normal[2]), 0, 0),
+                    obstacle.normal.dot(offset) / std::abs(obstacle.normal[2])};
+  if (obstacle.kind == Obstacle::Kind::cylinder) {
+    offset -= obstacle.normal.dot(offset) * obstacle.normal;
+    z -= obstacle.normal[2] * obstacle.normal;
+  }
+  // |offset + t z| = radius
+  const double zz = z.squaredNorm(), middle = -z.dot(offset) / zz;
+  const double half = middle * middle - (offset.squaredNorm() - obstacle.radius * obstacle.radius) / zz;
+  if (half <= 0)
+    return std::nullopt;
+  if (middle == 0)
+    throw refusal(contact, "the obstacle lies as far above as below the membrane at " + text(point) +
+                               "; move the obstacle to one side");
+  return Approach{Vector3d(std::copysign(1, middle), 0, 0), std::abs(middle) - std::sqrt(half)};
 }
 
 void addRow(const Vector3d& direction, double gap, int components, ContactLayout& layout) {
@@ -41,6 +65,8 @@ void addRow(const Vector3d& direction, double gap, int components, ContactLayout
 }
 
 void requireRows(const ContactTerms& contact, const ContactLayout& layout) {
+  if (layout.firstNodes.empty() && contact.firstSurface.empty())
+    throw refusal(contact, "no node of the membrane lies under or over the obstacle within the distance");
   if (layout.firstNodes.empty())
     throw refusal(contact, "no node of the surface '" + contact.firstSurface +
                                (std::isfinite(contact.distance)
@@ -59,26 +85,31 @@ bool isSpringless(const ContactTerms& contact, const RowAreas& areas, const Surf
 } // namespace
 
 ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& first, const Obstacle& obstacle) {
+  const bool isDeflection = contact.components == 1;
+  const auto approach = [&](std::size_t i) {
+    return isDeflection ? approachAlongZ(contact, obstacle, first.points[i])
+                        : approachTo(obstacle, first.points[i], contact.dimension);
+  };
   ContactLayout layout;
   layout.name = contact.name;
   const RowAreas areas = areasOf(contact, first, [&](std::size_t f, std::size_t i) {
-    return first.faces[i].empty() ||
-           first.facets[f].normal.dot(approachTo(obstacle, first.points[i], contact.dimension).direction) >
-               beside;
+    return isDeflection || first.faces[i].empty() ||
+           first.facets[f].normal.dot(approach(i)->direction) > beside;
   });
   bool isAnyNear = false;
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
-    const auto [direction, gap] = approachTo(obstacle, first.points[i], contact.dimension);
-    if (gap > contact.distance)
+    const std::optional<Approach> found = approach(i);
+    if (!found || found->gap > contact.distance)
       continue;
     isAnyNear = true;
-    if (direction.norm() < 0.5) // there is no nearest point
+    if (found->direction.norm() < 0.5) // there is no nearest point
       throw refusal(contact, "the node at " + text(first.points[i]) +
                                  " lies in the centre of the obstacle; move the obstacle");
-    if (first.normals[i].dot(direction) <= 0 || isSpringless(contact, areas, first, i))
+    if ((!isDeflection && first.normals[i].dot(found->direction) <= 0) ||
+        isSpringless(contact, areas, first, i))
       continue;
     layout.firstNodes.push_back(first.nodes[i]);
-    addRow(direction, contact.gapOf(first.nodes[i], gap), contact.dimension, layout);
+    addRow(found->direction, contact.gapOf(first.nodes[i], found->gap), contact.components, layout);
     areas.enter(i, layout);
   }
   if (isAnyNear && layout.firstNodes.empty())

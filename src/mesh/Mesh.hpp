@@ -76,7 +76,8 @@ public:
 
   /// Names of the surfaces: "left" … "top" of a structured mesh, physical groups of a Gmsh file.
   [[nodiscard]] virtual std::vector<std::string> surfaceNames() const = 0;
-  /// Precondition: `name` is one of surfaceNames().
+  /// Precondition: `name` is one of surfaceNames(), or empty: of a whole mesh in the plane its elements, which
+  /// face upwards.
   [[nodiscard]] virtual Surface surface(const std::string& name) const = 0;
   /// Names of the element groups that a file gives; structured meshes have none.
   [[nodiscard]] virtual std::vector<std::string> groupNames() const = 0;
@@ -90,6 +91,8 @@ public:
 
   /// Where some nodes lie; `points` is overwritten.
   void pointsAt(std::span<const GlobalOrdinal> nodes, std::vector<Point>& points) const;
+  /// All elements as facets.
+  [[nodiscard]] Surface elementsAsSurface() const;
   /// Where the nodes of an element lie; `points` is overwritten.
   void elementPoints(GlobalOrdinal element, std::vector<Point>& points) const;
 };
@@ -120,6 +123,15 @@ private:
 
 inline std::vector<GlobalOrdinal> Mesh::nodeSet(const std::string& /*name*/) const {
   return {};
+}
+
+inline Surface Mesh::elementsAsSurface() const {
+  Surface surface{cellType(), {}, {}};
+  for (GlobalOrdinal element = 0; element < numElements(); ++element) {
+    surface.add(ElementNodes(*this, element));
+    surface.elements.push_back(element);
+  }
+  return surface;
 }
 
 inline void Mesh::pointsAt(std::span<const GlobalOrdinal> nodes, std::vector<Point>& points) const {

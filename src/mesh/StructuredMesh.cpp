@@ -166,6 +166,8 @@ std::vector<std::string> StructuredMesh::surfaceNames() const {
 }
 
 Surface StructuredMesh::surface(const std::string& name) const {
+  if (name.empty())
+    return elementsAsSurface();
   const auto sides = sidesOf(dimension_);
   const Side& side = *std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.name == name; });
   GridPlace first{0, 0, 0}, end{elements_[0], elements_[1], elements_[2]};

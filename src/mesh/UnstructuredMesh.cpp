@@ -123,6 +123,8 @@ std::vector<std::string> UnstructuredMesh::surfaceNames() const {
 }
 
 Surface UnstructuredMesh::surface(const std::string& name) const {
+  if (name.empty())
+    return elementsAsSurface();
   const std::vector<FacetPlace>& facets = facets_[placeOf(name, arrays_.surfaces)];
   Surface surface;
   surface.facetType = facetTypeOf(arrays_.cellType);

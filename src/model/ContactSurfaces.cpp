@@ -97,7 +97,7 @@ double spacingOf(const mesh::Mesh& mesh, const mesh::Surface& surface) {
 mesh::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
                         const std::string& surface) {
   const std::vector<std::string> names = body.mesh->surfaceNames();
-  if (std::find(names.begin(), names.end(), surface) == names.end()) {
+  if (!surface.empty() && std::find(names.begin(), names.end(), surface) == names.end()) {
     std::string known;
     for (const std::string& name : names)
       known += (known.empty() ? "'" : ", '") + name + "'";

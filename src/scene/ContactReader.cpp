@@ -85,13 +85,28 @@ int bodyIndex(const ListReader& pair, const std::string& parameter, const std::v
   return indexOf(pair, parameter, bodies, "body", "bodies");
 }
 
+/// Whether a line along z meets it everywhere or nowhere.
+bool isUpright(const Obstacle& obstacle) {
+  const double z = std::abs(obstacle.normal[2]);
+  return obstacle.kind == Obstacle::Kind::plane ? z < 1e-6 : z > 1 - 1e-12;
+}
+
 /// The obstacle that the pair names.
 Obstacle obstacleOf(const ListReader& entry, const Body& body, const std::vector<NamedObstacle>& obstacles) {
   const auto& [name, dimension, obstacle] =
       obstacles[indexOf(entry, "Obstacle", obstacles, "obstacle", "obstacles")];
   const std::string who = "body \"" + body.name + "\" ";
-  if (body.physics == fem::Physics::membrane)
-    entry.refuseValue("Obstacle", who + "is a membrane; only elastic bodies meet obstacles");
+  if (body.physics == fem::Physics::membrane) {
+    if (dimension == 2 || obstacle.isHollow)
+      entry.refuseValue("Obstacle",
+                        who + "is a membrane at z = 0, which meets planes, and spheres and cylinders "
+                              "from outside, in space: give three coordinates");
+    if (obstacle.kind != Obstacle::Kind::sphere && isUpright(obstacle))
+      entry.refuseValue("Obstacle",
+                        who + "is a membrane at z = 0, which can neither meet a plane nor a cylinder "
+                              "that stands upright");
+    return obstacle;
+  }
   if (dimensionOf(body.physics) != dimension)
     entry.refuseValue("Obstacle", "it is an obstacle " +
                                       std::string(dimension == 3 ? "in space" : "in the plane") + ", but " +
@@ -118,7 +133,10 @@ void readSurfaces(const ListReader& entry, const std::vector<Body>& bodies,
                   const std::vector<NamedObstacle>& obstacles, SurfaceContact& pair) {
   entry.refuseGiven({"First Edge", "Second Edge"},
                     "only membranes on rectangles meet along edges; name surfaces");
-  entry.require("First Surface");
+  if (pair.second < 0 && bodies[pair.first].physics == fem::Physics::membrane)
+    entry.refuseGiven({"First Surface"}, "an obstacle may stop a membrane anywhere; remove it");
+  else
+    entry.require("First Surface");
   pair.firstSurface = entry.word("First Surface");
   if (pair.second < 0) {
     entry.refuseGiven({"Second Surface"}, "an obstacle is its own surface");

@@ -21,7 +21,8 @@ void describeObstacle(Teuchos::ParameterList& obstacles) {
   ParameterList& obstacle = obstacles.sublist("<obstacle>", false, "One obstacle, which does not move.");
   addChoice(obstacle, "Kind", "",
             "A half-space, a circle (in the plane), a sphere or an endless cylinder. Axisymmetric bodies "
-            "meet planes y = constant, and spheres as circles about a point of the axis.",
+            "meet planes y = constant, and spheres as circles about a point of the axis. Membranes lie at "
+            "z = 0 and meet what is below or above them along z.",
             {"plane", "circle", "sphere", "cylinder"});
   addArray(obstacle, "Point", Array<double>(),
            "A point on the plane or the cylinder's axis, or the centre: {x, y} or {x, y, z}.", "");
@@ -51,7 +52,8 @@ void describePair(Teuchos::ParameterList& contact) {
   setRequired(pair, {"First Body"});
   addChoice(pair, "First Edge", "", "Membranes on rectangles, required: edge of the first body.",
             std::vector<std::string>(edges.begin(), edges.end()));
-  pair.set("First Surface", "", "All other bodies, required: surface of the first body.");
+  pair.set("First Surface", "",
+           "All other bodies, required but for membranes on obstacles: surface of the first body.");
   pair.set("Second Body", "", "Name of the second (of membranes: the upper) body.");
   addChoice(pair, "Second Edge", "", "Membranes on rectangles, required: edge of the second body.",
             std::vector<std::string>(edges.begin(), edges.end()));

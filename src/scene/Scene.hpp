@@ -48,9 +48,9 @@ struct SurfaceContact {
   /// Which of two surfaces carries the multipliers.
   enum class Side { automatic, first, second };
   std::string name;
-  int first = 0; ///< index into Scene::bodies
-  std::string firstSurface;
-  int second = -1; ///< −1: the obstacle
+  int first = 0;            ///< index into Scene::bodies
+  std::string firstSurface; ///< empty: all of a membrane, with an obstacle under or over it
+  int second = -1;          ///< −1: the obstacle
   std::string secondSurface;
   Obstacle obstacle{};
   double gap = 0; ///< added to the gap that geometry leaves (membranes: all there is); negative: penetration
@@ -72,6 +72,8 @@ struct SurfaceContact {
   std::optional<Vector3> preloadDirection = std::nullopt;
 
   [[nodiscard]] bool hasFriction() const { return friction > 0 || frictionBound > 0; }
+  /// Whether an obstacle may stop a membrane anywhere.
+  [[nodiscard]] bool coversBody() const { return firstSurface.empty(); }
 };
 
 /// A linear equation between displacements of nodes, Σ factor · component = value, or a spring.

@@ -288,7 +288,7 @@ ParameterList sceneSchema() {
                             "(mm, N and MPa, say); results are in the same. Real numbers in a scene are 0 or "
                             "between 1e-30 and 1e30 in "
                             "magnitude."));
-  describeObstacle(list.sublist("Obstacles", false, "Rigid obstacles that elastic bodies may meet."));
+  describeObstacle(list.sublist("Obstacles", false, "Rigid obstacles that bodies may meet."));
   describePair(list.sublist("Contact", false, "What cannot penetrate each other, or is tied."));
   ParameterList& equation =
       list.sublist("Equations", false, "Linear equations between displacements of nodes of elastic bodies.")

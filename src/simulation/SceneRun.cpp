@@ -274,8 +274,10 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   SceneRun run;
   const double began = Teuchos::Time::wallTime();
   run.scene = scene;
-  const model::Meshes meshes =
-      options.quantity.point.empty() && !options.bound ? options.meshes : model::Meshes::whole;
+  const bool needsWhole =
+      !options.quantity.point.empty() || options.bound ||
+      std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const auto& c) { return c.coversBody(); });
+  const model::Meshes meshes = needsWhole ? model::Meshes::whole : options.meshes;
   run.decomposition = std::make_unique<model::Decomposition>(
       options.bodies == nullptr ? model::decompose(scene, comm, meshes)
                                 : model::decompose(scene, std::move(*options.bodies), comm));

@@ -13,7 +13,7 @@ import elastic_runs  # noqa: E402
 import numpy  # noqa: E402
 from plot import cells, part, pressure, render  # noqa: E402
 from plot.errors import PlotError  # noqa: E402
-from plot.run import Contact, read_run  # noqa: E402
+from plot.run import Contact, Run, read_run  # noqa: E402
 
 
 class Surfaces(unittest.TestCase):
@@ -52,6 +52,15 @@ class Surfaces(unittest.TestCase):
             numpy.testing.assert_allclose(arcs[1], 1, rtol=1e-9)
         flat = Contact("c", "c", points, zeros, zeros, closed, zeros, closed.astype(float), numpy.tile([0, 0, 1.0], (len(points), 1)), facets)
         numpy.testing.assert_array_equal(pressure.view(flat).place(points), points[:, :2])
+
+    def test_contacts_of_membranes_with_obstacles_are_surfaces_and_no_lines(self):
+        points, mesh = elastic_runs.block("quadrilateral", 4, 0.0)
+        zeros, up = numpy.zeros(len(points)), numpy.tile([0, 0, 1.0], (len(points), 1))
+        over = Contact("o", "o", points, zeros, zeros, zeros > 0, zeros, zeros, up, mesh)
+        edge = Contact("e", "e", points, zeros, zeros, zeros > 0, zeros, zeros, up, cells.outer_facets("quadrilateral", mesh)[0])
+        self.assertEqual(Run("r", "r", [], [over, edge], None).lines(), [edge])
+        self.assertTrue(over.is_surface())
+        self.assertIn("largest pressure 0", pressure.figure(Run("r", "r", [], [over], None), over).axes[0].get_title())
 
     def test_of_balls_what_faces_away_is_not_drawn_over_what_is_pressed(self):
         rng = numpy.random.default_rng(3)

@@ -108,15 +108,43 @@ TEST(ObstacleReaderTest, RefusesObstaclesThatLackTheirShape) {
              {"\"Contact\"", "no pair with the obstacle \"roof\""});
 }
 
-TEST(ObstacleReaderTest, RefusesMembranesOnObstacles) {
-  expectSays(sceneRefusal([](ParameterList& list) {
-               list.sublist("Obstacles").sublist("floor").set("Kind", "plane").set("Point", numbers({0, 0}));
-               list.sublist("Obstacles").sublist("floor").set("Normal", numbers({0, 1}));
-               ParameterList pair;
-               pair.set("First Body", "left").set("First Surface", "bottom").set("Obstacle", "floor");
-               list.sublist("Contact").sublist("rest") = pair;
-             }),
-             {"\"Obstacle\"", "body \"left\" is a membrane"});
+TEST(ObstacleReaderTest, MembranesMeetWhatLiesAlongZ) {
+  const auto list = [](const std::function<void(ParameterList&, ParameterList&)>& change) {
+    ParameterList scene = twoBodies();
+    ParameterList& floor = scene.sublist("Obstacles").sublist("floor");
+    floor.set("Kind", "plane").set("Point", numbers({0, 0, -1})).set("Normal", numbers({0, 0, 1}));
+    ParameterList& pair = scene.sublist("Contact").sublist("rest");
+    pair.set("First Body", "left").set("Obstacle", "floor");
+    change(floor, pair);
+    return scene;
+  };
+  const scene::SurfaceContact contact =
+      scene::readScene(list([](ParameterList&, ParameterList&) {}), "a.xml").contacts.back();
+  EXPECT_TRUE(contact.coversBody());
+  EXPECT_EQ(contact.obstacle.point, (Vector3{0, 0, -1}));
+  const auto says = [&](const std::function<void(ParameterList&, ParameterList&)>& change,
+                        std::initializer_list<std::string> parts) {
+    expectSays(refusal([&] { scene::readScene(list(change), "a.xml"); }), parts);
+  };
+  says([](ParameterList&, ParameterList& p) { p.set("First Surface", "bottom"); },
+       {"\"First Surface\"", "anywhere"});
+  says([](ParameterList&, ParameterList& p) { p.set("First Edge", "bottom"); }, {"\"First Edge\""});
+  says([](ParameterList&, ParameterList& p) { p.set("Friction", 0.3); }, {"\"Friction\"", "membranes"});
+  says(
+      [](ParameterList& o, ParameterList&) {
+        o.set("Normal", numbers({1, 0, 0}));
+      },
+      {"\"Obstacle\"", "upright"});
+  says(
+      [](ParameterList& o, ParameterList&) {
+        o.set("Point", numbers({0, 0})).set("Normal", numbers({0, 1}));
+      },
+      {"\"Obstacle\"", "three coordinates"});
+  says(
+      [](ParameterList& o, ParameterList&) {
+        o.set("Kind", "sphere").set("Radius", 3.0).set("Side", "inside").remove("Normal");
+      },
+      {"\"Obstacle\"", "from outside"});
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 """test_targets.py EPAFI SOURCE_DIR MPIRUN ARGUMENTS...: runs to a target, and other choices that the program makes by itself."""
 
 import csv
+import math
 import re
 import sys
 import unittest
@@ -96,11 +97,11 @@ class SolvesAsAccuratelyAsAsked(Driver):
             self.assertIn(said, status["Reason"])
             self.assertIn("0.1 %", status["Reason"])
 
-    def quantity(self, name, *entries, target="0.1%"):
+    def quantity(self, name, *entries, target="0.1%", ranks=1):
         """The numbers of the report's list Quantity, of a run to a target."""
         report = self.place / "report.xml"
         run = epafi(scene(name), "--accuracy", target, "--report", report,
-                    *(part for entry in entries for part in ("--set", f"Accuracy/Quantity/{entry}")))
+                    *(part for entry in entries for part in ("--set", f"Accuracy/Quantity/{entry}")), ranks=ranks)
         self.assertEqual(run.returncode, SOLVED, run.stdout + run.stderr)
         self.assertIn("quantity    ", run.stdout)
         return {key: float(value) for key, value in read_report(report)["Quantity"].items() if key != "Name"}
@@ -122,6 +123,21 @@ class SolvesAsAccuratelyAsAsked(Driver):
         for target in ("10%", "2%", "0.5%"):
             found = self.quantity("hertz_cylinder", "Kind=pressure", "Contact=touch", target=target)
             self.assertLessEqual(abs(found["Value"] - exact), found["Error Bar"] + 1e-4 * exact, target)
+
+    def test_a_ball_below_a_membrane_carries_the_force_of_its_closed_form(self):
+        """b of b^2 - 1 + (s(b) - 2b) b ln b = z(b), z the ball, s its slope; the force is 4 pi - 2 pi (2 + A)."""
+        low, high = 0.01, 0.39
+        for _ in range(60):
+            b = (low + high) / 2
+            slope = -b / math.sqrt(0.16 - b * b)
+            inside = b * b - 1 + (slope - 2 * b) * b * math.log(b) < math.sqrt(0.16 - b * b) - 0.5
+            low, high = (b, high) if inside else (low, b)
+        exact = -2 * math.pi * (slope - 2 * b) * b
+        self.assertAlmostEqual(exact, 3.523207, places=6)
+        for target, ranks in (("2%", 1), ("0.1%", 2)):
+            found = self.quantity("sheet_on_ball", "Kind=force", "Contact=rest", target=target, ranks=ranks)
+            self.assertLessEqual(abs(found["Value"] - exact), found["Error Bar"], target)
+            self.assertLess(found["Error Bar"], 0.02 * exact)
 
     def test_benchmarks_of_nafems_lie_in_their_bars(self):
         """The punch: converged by others; the roller: Hertz, from whom so small a block is a tenth of a per cent off."""
