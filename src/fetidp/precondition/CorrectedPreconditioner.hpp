@@ -8,7 +8,7 @@
 ///
 /// V may have entries in rows with bounds: H, and with it the problem, stays what it is. In a face M_V is
 /// used as any other preconditioner, restricted to the free set; that is no longer the correction of the
-/// restricted M, but it serves (docs/theory.md, "Jumps of the stiffness", has figures).
+/// restricted M, but it serves.
 
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
