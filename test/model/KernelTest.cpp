@@ -43,8 +43,8 @@ TEST(KernelTest, AModeThatTheMatrixDoesNotKnowIsAFault) {
   }
 }
 
-// A subdomain that is held everywhere, as a rigid block under a deck's contact is, has no row; one that is held
-// enough has no mode.
+// A subdomain that is held everywhere, as a rigid block under a deck's contact is, has no row; one that is
+// held enough has no mode.
 TEST(KernelTest, WhatHasNoRowOrNoModeHasNoFault) {
   EXPECT_NO_THROW(requireKernel(decomposition::SparseMatrix(0, 0), Eigen::MatrixXd(0, 6), "block"));
   EXPECT_NO_THROW(requireKernel(decomposition::SparseMatrix(0, 0), Eigen::MatrixXd(0, 0), "block"));
