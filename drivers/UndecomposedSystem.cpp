@@ -53,16 +53,47 @@ UndecomposedSystem::Matrix blockDiagonal(const DecomposedProblem& problem, const
   return result;
 }
 
-UndecomposedSystem::Matrix contactRows(const DecomposedProblem& problem, const std::vector<int>& first) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
-    for (const decomposition::ConstraintEntry& entry : problem.subdomains[s].constraint)
-      entries.emplace_back(static_cast<int>(problem.numberOf(entry.multiplier)), first[s] + entry.unknown,
-                           entry.coefficient);
-  UndecomposedSystem::Matrix result(static_cast<int>(problem.numInequalities + problem.numTies),
-                                    first.back());
+UndecomposedSystem::Matrix rowsOf(const std::vector<Eigen::Triplet<double>>& entries, GlobalOrdinal numRows,
+                                  int numUnknowns) {
+  UndecomposedSystem::Matrix result(static_cast<int>(numRows), numUnknowns);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
+}
+
+/// B and T, whose rows stand between those of contact and of ties there.
+void setRows(const DecomposedProblem& problem, const std::vector<int>& first, UndecomposedSystem& system) {
+  std::vector<Eigen::Triplet<double>> normal, tangential;
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+    for (const decomposition::ConstraintEntry& entry : problem.subdomains[s].constraint) {
+      const int unknown = first[s] + entry.unknown;
+      const auto row = static_cast<int>(problem.numberOf(entry.multiplier));
+      if (problem.tangentOf(entry.multiplier) > 0)
+        tangential.emplace_back(row - static_cast<int>(problem.numInequalities), unknown, entry.coefficient);
+      else
+        normal.emplace_back(row < problem.numInequalities ? row : row - static_cast<int>(problem.numFriction),
+                            unknown, entry.coefficient);
+    }
+  system.constraint = rowsOf(normal, problem.numInequalities + problem.numTies, first.back());
+  system.tangent = rowsOf(tangential, problem.numFriction, first.back());
+}
+
+/// c, s, and friction's law.
+void setRowData(const DecomposedProblem& problem, const decomposition::ProblemData& data,
+                UndecomposedSystem& system) {
+  const auto all = data.gap().getData();
+  const Eigen::Map<const Eigen::VectorXd> gap(all.getRawPtr(), all.size());
+  system.numContacts = problem.numInequalities;
+  system.gap.resize(problem.numInequalities + problem.numTies);
+  system.gap << gap.head(problem.numInequalities), gap.tail(problem.numTies);
+  system.tangentGap = gap.segment(problem.numInequalities, problem.numFriction);
+  const std::vector<decomposition::FrictionNode>& nodes = problem.frictionNodes;
+  system.friction.resize(std::ssize(nodes));
+  system.frictionBound.resize(std::ssize(nodes));
+  for (int i = 0; i < std::ssize(nodes); ++i) {
+    system.frictionRow.push_back(static_cast<int>(problem.numberOf(nodes[i].contact)));
+    system.frictionBound[i] = data.frictionBound(nodes[i], 0);
+    system.friction[i] = data.frictionBound(nodes[i], 1) - system.frictionBound[i];
+  }
 }
 
 /// Body, node, place and direction of the unknowns of one subdomain.
@@ -125,10 +156,8 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
     system.prescribed.emplace_back(
         Eigen::VectorXd::Zero(static_cast<Eigen::Index>(body.mesh->numNodes()) * problem.components));
   system.stiffness = blockDiagonal(problem, first);
-  system.constraint = contactRows(problem, first);
-  system.numContacts = problem.numInequalities;
-  const auto gap = decomposition.data.gap().getData();
-  system.gap = Eigen::Map<const Eigen::VectorXd>(gap.getRawPtr(), gap.size());
+  setRows(problem, first, system);
+  setRowData(problem, decomposition.data, system);
   system.load.resize(first.back());
   system.body.resize(first.back());
   system.node.resize(system.body.size());

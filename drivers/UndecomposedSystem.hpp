@@ -24,6 +24,13 @@ struct UndecomposedSystem {
   Eigen::Index numContacts = 0; ///< rows B u ≤ c; for those behind them B u = c
   double energyOffset = 0;      ///< energy that prescribed displacements alone contribute
 
+  // Of nodes with friction. Solvers here leave it out.
+  Matrix tangent;             ///< T, Tu − s is what slips: of each node as many rows as components less one
+  Eigen::VectorXd tangentGap; ///< s
+  std::vector<int> frictionRow;  ///< of each node its row of contact
+  Eigen::VectorXd friction;      ///< of each Coulomb's coefficient
+  Eigen::VectorXd frictionBound; ///< of each a force, Tresca's law
+
   // Where an unknown acts: the rigid motion u(x) = t + ω × x has the value u(place)ᵀdirection. A membrane's
   // unknowns have no direction in space; theirs is (1, 0, 0).
   std::vector<int> body;      ///< n: index into the scene's bodies

@@ -68,6 +68,8 @@ scene::Scene read(const Request& request) {
   for (const scene::SurfaceContact& contact : scene.contacts) // the programs that read FILE know bounds alone
     if (contact.kind == scene::SurfaceContact::Kind::tied)
       throw InputError("contact '" + contact.name + "' is a tied joint; only contacts can be exported");
+    else if (contact.hasFriction())
+      throw InputError("contact '" + contact.name + "' has friction; only contacts without can be exported");
   return scene;
 }
 

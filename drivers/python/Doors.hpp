@@ -9,5 +9,6 @@ namespace epafi::python {
 void defineScenes(pybind11::module_& module);   ///< Run and solve_scene
 void definePrograms(pybind11::module_& module); ///< solve_program
 void defineMatrices(pybind11::module_& module); ///< Problem
+void defineSystems(pybind11::module_& module);  ///< system_of
 
 } // namespace epafi::python

@@ -8,6 +8,8 @@
 MPI starts with the import, by mpi4py where that is installed; one process needs no mpirun.
 """
 
+import importlib
+
 from . import _epafi
 
 _epafi.prepare()
@@ -26,6 +28,14 @@ from .result import BodyFields, ContactFields, NotConverged, Result, Stage, TieF
 from .scenes import solve, to_xml  # noqa: E402
 
 __version__ = _epafi.version
+
+
+def __getattr__(name: str) -> object:
+    """epafi.problems, .peers and .contest, which need SciPy, when they are asked for."""
+    if name in ("contest", "peers", "problems"):
+        return importlib.import_module(f".{name}", __name__)
+    raise AttributeError(f"module 'epafi' has no attribute '{name}'")
+
 
 for _error in (Error, InputError, SolvabilityError):
     _error.__module__ = "epafi"

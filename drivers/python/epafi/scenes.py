@@ -26,6 +26,12 @@ def address(comm: Any) -> int:
     return 0 if comm is None else sys.modules["mpi4py.MPI"]._addressof(comm)
 
 
+def given(scene: str | os.PathLike | Mapping[str, Any], set: Mapping[str, Any] | None) -> tuple[str, str, list[str]]:
+    """Its text, empty where it is in a file; the file's name; and what is changed, as the program's --set has it."""
+    texts = [f"{path}={parameters._spelled(value, None)[1]}" for path, value in (set or {}).items()]
+    return (to_xml(scene), "scene", texts) if isinstance(scene, Mapping) else ("", os.fspath(scene), texts)
+
+
 def solve(scene: str | os.PathLike | Mapping[str, Any], accuracy: float | str | None = None, *,
           set: Mapping[str, Any] | None = None, comm: Any = None, progress: bool | Callable | None = None,
           check: bool = True) -> Result:
@@ -51,12 +57,10 @@ def solve(scene: str | os.PathLike | Mapping[str, Any], accuracy: float | str | 
         if accuracy in (0, "0", "0%", "0 %"):
             raise _epafi.InputError(f"accuracy is {accuracy!r}, but no mesh is without error; ask for 0.01 say")
         assignments["Accuracy/Target"] = accuracy
-    texts = [f"{path}={parameters._spelled(value, None)[1]}" for path, value in assignments.items()]
-    is_given = isinstance(scene, Mapping)
-    text, file = (to_xml(scene), "scene") if is_given else ("", os.fspath(scene))
+    text, file, texts = given(scene, assignments)
     with shown(progress, comm) as tell:
         run = _epafi.solve_scene(text, file, texts, address(comm), tell)
-    result = Result(run, "scene" if is_given else pathlib.Path(file).stem, comm)
+    result = Result(run, pathlib.Path(file).stem, comm)
     if check and not result.converged:
         raise NotConverged(result)
     return result
