@@ -9,8 +9,12 @@ MPI starts with the import, by mpi4py where that is installed; one process needs
 """
 
 import importlib
+from typing import TYPE_CHECKING, Any
 
 from . import _epafi
+
+if TYPE_CHECKING:
+    from . import contest, peers, problems  # noqa: F401
 
 _epafi.prepare()
 try:
@@ -30,7 +34,7 @@ from .scenes import solve, to_xml  # noqa: E402
 __version__ = _epafi.version
 
 
-def __getattr__(name: str) -> object:
+def __getattr__(name: str) -> Any:
     """epafi.problems, .peers and .contest, which need SciPy, when they are asked for."""
     if name in ("contest", "peers", "problems"):
         return importlib.import_module(f".{name}", __name__)

@@ -48,6 +48,19 @@ def _classes(name: str, schema: Mapping) -> Iterator[type]:
             yield from _classes(key.strip("<>").replace(" ", "") if not key.startswith("<") else key.strip("<>").title(), entry)
 
 
+# For type checkers; what follows makes them.
+Accuracy: type[Parameters]
+Body: type[Parameters]
+Decomposition: type[Parameters]
+Equation: type[Parameters]
+Load: type[Parameters]
+Obstacle: type[Parameters]
+Pair: type[Parameters]
+Region: type[Parameters]
+Scene: type[Parameters]
+Solver: type[Parameters]
+Step: type[Parameters]
+Support: type[Parameters]
 for _made in _classes("Scene", SCHEMA):
     globals().setdefault(_made.__name__, _made)
 
@@ -59,7 +72,7 @@ def _spelled(value: Any, wanted: str | None) -> tuple[str, str]:
     if isinstance(value, numbers.Number):
         if isinstance(value, numbers.Integral) and wanted != "double":
             return "int", str(operator.index(value))
-        return "double", repr(float(value))
+        return "double", repr(float(value))  # type: ignore[arg-type]
     if isinstance(value, (list, tuple, numpy.ndarray)):
         entries = [_spelled(entry, None if wanted is None else wanted[6:-1]) for entry in numpy.ravel(value).tolist()]
         kind = "double" if any(entry[0] == "double" for entry in entries) else "int"

@@ -90,9 +90,10 @@ class Stage:
 
 
 def _stage(fields: dict[str, Any]) -> Stage:
-    kinds = {"bodies": BodyFields, "contacts": ContactFields, "ties": TieFields}
-    return Stage(**{key: {name: kinds[key](**own) for name, own in value.items()} if key in kinds else value
-                    for key, value in fields.items()})
+    kinds: dict[str, Any] = {"bodies": BodyFields, "contacts": ContactFields, "ties": TieFields}
+    parts: dict[str, Any] = {key: {name: kinds[key](**own) for name, own in value.items()} if key in kinds else value
+                             for key, value in fields.items()}
+    return Stage(**parts)
 
 
 class Result:
@@ -182,7 +183,8 @@ class Result:
     def to_meshio(self) -> Any:
         """meshio's Mesh of all bodies of this rank's arrays, with `displacement` (or `u`), `von_mises` and `body`."""
         import meshio
-        start, points, cells, body, data = 0, [], [], [], {}
+        start, points, cells, body = 0, [], [], []
+        data: dict[str, Any] = {}
         for number, own in enumerate(self.bodies.values()):
             points.append(own.points)
             cells.append((MESHIO[own.cell_type], own.cells + start))
