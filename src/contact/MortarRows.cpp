@@ -6,6 +6,7 @@
 #include "epafi/contact/MultiplierNodes.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/RowAreas.hpp"
+#include "epafi/decomposition/FrictionRows.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
 
@@ -233,17 +234,22 @@ ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first,
   const SurfaceNodes& nodes = maker.nodes();
   ContactLayout layout;
   layout.name = terms.name;
+  const auto axisAt = [&](std::size_t place, int c) -> Vector3d {
+    const Vector3d& normal = nodes.normals[place];
+    return !terms.givesWay ? axes.col(c) : c == 0 ? normal : decomposition::tangentsOf(normal)[c - 1];
+  };
   for (int c = 0; c < terms.components; ++c) {
-    const Vector3d axis = axes.col(c);
     RowAreas areas(terms, nodes.nodes.size());
-    for (const MortarRow& row :
-         maker.rows([&](std::size_t k) { return isHeld && isHeld(nodes.nodes[k], axis); },
-                    terms.components > 1, areas))
-      enter(row, nodes, areas, axis, terms.components, 0.0, layout);
+    const auto isLeftOut = [&](std::size_t k) {
+      return !terms.givesWay && isHeld && isHeld(nodes.nodes[k], axisAt(k, c));
+    };
+    for (const MortarRow& row : maker.rows(isLeftOut, terms.components > 1, areas))
+      enter(row, nodes, areas, axisAt(row.place, c), terms.components, 0.0, layout);
   }
   requireMortarRows(terms, layout);
   layout.isDual = haveDualRows(first.surface.facetType);
-  smoothRows(first.surface, layout);
+  if (!terms.givesWay) // else rows of a component have several directions, and are dual where this matters
+    smoothRows(first.surface, layout);
   return layout;
 }
 

@@ -42,7 +42,8 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
                            const std::function<bool(GlobalOrdinal)>& isTied = {});
 
 /// The rows u¹ − u² = 0, `components` for each node, along axes (columns) that are the same for all, best
-/// such that supports hold nodes along them; likewise.
+/// such that supports hold nodes along them; of a joint that gives way along the normal, then the tangents,
+/// of each node, those that are held too; likewise.
 ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
                           const HeldNodes& isHeld, const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 

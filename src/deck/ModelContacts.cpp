@@ -147,9 +147,12 @@ std::vector<std::string> ModelMaker::addPairs(const std::string& name, const std
 
 void ModelMaker::addContactPair(const ContactPair& pair) {
   const Interaction& interaction = deck_.interactions.at(pair.interaction);
-  if (interaction.law == Interaction::Law::tied)
-    throw InputError(text(interaction.place) + ": *SURFACE BEHAVIOR: TIED, a bond with a stiffness, is not "
-                                               "solved here; *TIE bonds surfaces as they are");
+  const bool isTied = interaction.law == Interaction::Law::tied;
+  if (isTied && interaction.stickSlope.value_or(0) == 0)
+    throw InputError(text(interaction.place) + ": *SURFACE BEHAVIOR: TIED needs a stick slope, the second "
+                                               "number of *FRICTION; give it one");
+  if (isTied && !pair.adjust && pair.adjustSet.empty())
+    model_.notes.push_back(text(pair.place) + ": *CONTACT PAIR: what lies between tied surfaces stays");
   if (!pair.isSurfaceToSurface)
     model_.notes.push_back(text(pair.place) + ": *CONTACT PAIR: surfaces meet surface to surface here");
   if (interaction.tension.value_or(0) > 0 && contactsOf_[pair.interaction].empty())
@@ -157,13 +160,18 @@ void ModelMaker::addContactPair(const ContactPair& pair) {
                            ": *SURFACE BEHAVIOR: the tension at large gaps is left out");
   for (const std::string& name :
        addPairs(pair.dependent + " - " + pair.independent, pair.dependent, pair.independent, pair.place)) {
-    contactsOf_[pair.interaction].push_back(name);
     contactsBetween_[{pair.dependent, pair.independent}].push_back(name);
     Teuchos::ParameterList& list = model_.scene.sublist("Contact").sublist(name);
+    if (interaction.law != Interaction::Law::hard)
+      list.set("Stiffness", interaction.stiffness);
+    if (isTied) {
+      list.set("Kind", "tied");
+      list.set("Stick Slope", *interaction.stickSlope);
+      continue;
+    }
+    contactsOf_[pair.interaction].push_back(name);
     if (interaction.friction > 0)
       list.set("Friction", interaction.friction);
-    if (interaction.law == Interaction::Law::linear)
-      list.set("Stiffness", interaction.stiffness);
     if (interaction.friction > 0 && interaction.stickSlope.value_or(0) > 0)
       list.set("Stick Slope", *interaction.stickSlope);
     constexpr double whatever = 1e30;

@@ -81,7 +81,8 @@ ContactLayout Coupler::layout() const {
                                obstacleOf(terms_.obstacle)),
                   first_, second_, "nodes of '" + layoutOf(first_).name + "'");
   }
-  if (terms_.coupling != scene::SurfaceContact::Coupling::mortar)
+  const bool isSpring = isTied() && terms_.stiffness > 0; // whose rows need areas
+  if (terms_.coupling != scene::SurfaceContact::Coupling::mortar && !isSpring)
     if (std::optional<ContactLayout> pairs = byPairs())
       return *std::move(pairs);
   return byMortar();

@@ -29,19 +29,25 @@ RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<cont
   const RCP<Vector> compliance = rcp(new Vector(problem.multiplierMap)); // stiffness first
   const auto values = compliance->getDataNonConst();
   const GlobalOrdinal numTangents = problem.components - 1;
+  const auto add = [&](const contact::ContactLayout& layout, GlobalOrdinal row, GlobalOrdinal number,
+                       double stiffness) {
+    if (const LocalOrdinal own = problem.multiplierMap->getLocalElement(number); own >= 0)
+      values[own] += stiffness * layout.portion(row) * layout.areas[row];
+  };
   for (const contact::ContactLayout& contact : contacts) {
     const scene::SurfaceContact& terms = scene.contacts[contact.number];
-    for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
-      const double area = contact.portion(row) * contact.areas[row];
-      const GlobalOrdinal offset = row;
-      const auto add = [&](GlobalOrdinal number, double stiffness) {
-        if (const LocalOrdinal own = problem.multiplierMap->getLocalElement(number); own >= 0)
-          values[own] += stiffness * area;
-      };
-      add(contact.firstRow + offset, terms.stiffness);
+    for (GlobalOrdinal row = 0; row < contact.numRows(); ++row) {
+      add(contact, row, contact.firstRow + row, terms.stiffness);
       for (GlobalOrdinal k = 0; contact.firstFriction >= 0 && k < numTangents; ++k)
-        add(problem.numInequalities + numTangents * (contact.firstFriction + offset) + k, terms.stickSlope);
+        add(contact, row, problem.numInequalities + numTangents * (contact.firstFriction + row) + k,
+            terms.stickSlope);
     }
+  }
+  for (const contact::ContactLayout& tie : ties) { // normals first
+    const scene::SurfaceContact& terms = scene.contacts[tie.number];
+    for (GlobalOrdinal row = 0; row < tie.numRows(); ++row)
+      add(tie, row, problem.firstTie() + tie.firstRow + row,
+          row < tie.numRows() / problem.components ? terms.stiffness : terms.stickSlope);
   }
   GlobalOrdinal row = firstEquation(ties, problem);
   for (const contact::Equation& equation : equations)

@@ -15,8 +15,8 @@ namespace epafi::model {
 GlobalOrdinal firstEquation(const std::vector<contact::ContactLayout>& ties,
                             const decomposition::DecomposedProblem& problem);
 
-/// C of contacts that give way and of springs, on multiplierMap; null if there are none. Rows that contacts
-/// share have the springs of all side by side. Collective.
+/// C of contacts and ties that give way and of springs, on multiplierMap; null if there are none. Rows that
+/// contacts share have the springs of all side by side. Collective.
 RCP<const Vector> complianceOf(const scene::Scene& scene, const std::vector<contact::ContactLayout>& contacts,
                                const std::vector<contact::ContactLayout>& ties,
                                const std::vector<contact::Equation>& equations,

@@ -163,9 +163,10 @@ bool Groups::bringsFacets(std::span<const Member> members, const Member& added, 
 /// bodies in the same order.
 bool Groups::joins(const std::vector<Member>& members, const Member& added) const {
   const Terms &its = members.front().terms, &own = added.terms;
-  if (its.preload || own.preload || its.kind != own.kind || its.gap != own.gap || its.adjust != own.adjust ||
-      its.adjustNodes != own.adjustNodes || its.distance != own.distance || its.coupling != own.coupling ||
-      its.multipliers != own.multipliers)
+  if (its.preload || own.preload || its.kind != own.kind ||
+      (own.kind == Kind::tied && (own.stiffness > 0) != (its.stiffness > 0)) || its.gap != own.gap ||
+      its.adjust != own.adjust || its.adjustNodes != own.adjustNodes || its.distance != own.distance ||
+      its.coupling != own.coupling || its.multipliers != own.multipliers)
     return false;
   const auto orderOf = [&](int body) { return mesh::orderOf(bodies_[body].mesh->cellType()); };
   const bool mayCarrySecond =

@@ -181,24 +181,27 @@ void readFriction(const ListReader& entry, const Body& body, SurfaceContact& pai
   pair.frictionBound = entry.real("Friction Bound");
   pair.stiffness = entry.real("Stiffness");
   pair.stickSlope = entry.real("Stick Slope");
+  const bool isTied = pair.kind == SurfaceContact::Kind::tied;
   for (const char* const name : {"Adjust", "Adjust Nodes"})
-    if (entry.has(name) &&
-        (body.physics == fem::Physics::membrane || pair.kind == SurfaceContact::Kind::tied))
+    if (entry.has(name) && (body.physics == fem::Physics::membrane || isTied))
       entry.refuseValue(name, "membranes and tied joints have no gap that their shapes leave");
   for (const char* const name : {"Stiffness", "Stick Slope"}) {
     if (entry.real(name) > 0 && body.physics == fem::Physics::membrane)
       entry.refuseValue(name, "membranes do not give way where they touch");
-    if (entry.real(name) > 0 && pair.kind == SurfaceContact::Kind::tied)
-      entry.refuseValue(name, "a tied joint does not give way; remove it, or make the pair a contact");
+    if (entry.real(name) > 0 && isTied && pair.coupling == SurfaceContact::Coupling::nodes)
+      entry.refuseValue("Coupling", "a tied joint that gives way is coupled by mortars");
   }
-  if (pair.stickSlope > 0 && !pair.hasFriction())
-    entry.refuseValue("Stick Slope", "there is no friction that would make the surfaces stick");
+  if (isTied && pair.stickSlope == 0)
+    pair.stickSlope = pair.stiffness;
+  if (pair.stickSlope > 0 && (isTied ? pair.stiffness == 0 : !pair.hasFriction()))
+    entry.refuseValue("Stick Slope", isTied ? "a tied joint that gives way needs a Stiffness, too"
+                                            : "there is no friction that would make the surfaces stick");
   if (!pair.hasFriction())
     return;
   const char* const given = pair.friction > 0 ? "Friction" : "Friction Bound";
   if (pair.friction > 0 && pair.frictionBound > 0)
     entry.refuseValue("Friction Bound", "Coulomb's Friction is given as well; leave out one of them");
-  if (pair.kind == SurfaceContact::Kind::tied)
+  if (isTied)
     entry.refuseValue(given, "a tied joint does not slip; remove it, or make the pair a contact");
   if (body.physics == fem::Physics::membrane)
     entry.refuseValue(given, "membranes move along z alone and cannot slip; friction is for elastic bodies");
@@ -212,6 +215,8 @@ void readPreload(const ListReader& entry, const Body& body, SurfaceContact& pair
   }
   if (pair.kind != SurfaceContact::Kind::tied || body.physics == fem::Physics::membrane)
     entry.refuseValue("Preload", "it is for tied joints of elastic bodies, the parts of a bolt");
+  if (pair.stiffness > 0)
+    entry.refuseValue("Preload", "a section of a bolt does not give way; remove its Stiffness");
   pair.preload = preloadOf(entry.word("Preload"));
   if (!pair.preload || pair.preload->kind == Preload::Kind::locked)
     entry.refuseValue("Preload", "it must be \"force\" or \"shortening\" and a number");

@@ -84,12 +84,12 @@ void describePair(Teuchos::ParameterList& contact) {
       "them count as none, whatever they are.");
   addReal(pair, "Stiffness", 0.0,
           "Elastic bodies: pressure over overclosure, force per volume, of surfaces that give way; 0: they "
-          "do not.",
+          "do not. Of a tied joint also tension over what it opens.",
           0.0);
   addReal(pair, "Stick Slope", 0.0,
           "With friction: tangential traction over the shift of surfaces that stick, force per volume; 0: "
           "they do not "
-          "shift.",
+          "shift. Of a tied joint that gives way: 0 is its Stiffness.",
           0.0);
   pair.set(
       "Preload", "",

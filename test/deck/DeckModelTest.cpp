@@ -154,6 +154,16 @@ TEST(DeckModelTest, ContactsHaveTheLawOfTheirInteraction) {
   EXPECT_EQ(soft.get<double>("Friction"), 0.25);
   EXPECT_EQ(soft.get<double>("Stick Slope"), 500.0);
   EXPECT_EQ(soft.get<double>("Adjust"), 0.1);
+  deck::DeckModel tied = modelOf(cubes(
+      apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TIED\n1e4,\n*FRICTION\n0.25,500.\n" + oneStep));
+  ParameterList& bond = tied.scene.sublist("Contact").sublist("HIGH - LOW");
+  EXPECT_EQ(bond.get<std::string>("Kind"), "tied");
+  EXPECT_EQ(bond.get<double>("Stiffness"), 1e4);
+  EXPECT_EQ(bond.get<double>("Stick Slope"), 500.0);
+  EXPECT_FALSE(bond.isParameter("Friction"));
+  EXPECT_NE(refusalOf(cubes(apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TIED\n1e4,\n" + oneStep))
+                .find("TIED needs a stick slope"),
+            std::string::npos);
   deck::DeckModel hard =
       modelOf(cubes(apart, pair + "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=HARD\n" + oneStep));
   EXPECT_FALSE(hard.scene.sublist("Contact").sublist("HIGH - LOW").isParameter("Stiffness"));

@@ -294,4 +294,23 @@ TEST(SolidReaderTest, RefusesRegionsWithoutPlace) {
       {"\"Group\"", "no mesh file"});
 }
 
+TEST(SolidReaderTest, ATiedJointGivesWayAlongAsAcrossUnlessItSays) {
+  ParameterList list = cubeOnFloor();
+  bodyOf(list, "other") = bodyOf(list, "cube");
+  ParameterList& tie = list.sublist("Contact").sublist("tie");
+  tie.set("Kind", "tied").set("First Body", "cube").set("First Surface", "top");
+  tie.set("Second Body", "other").set("Second Surface", "bottom").set("Stick Slope", 3.0);
+  const auto says = [&] { return refusal([&] { scene::readScene(list, "a.xml"); }); };
+  expectSays(says(), {"\"Stick Slope\"", "needs a Stiffness"});
+  tie.set("Stiffness", 8.0);
+  EXPECT_EQ(scene::readScene(list, "a.xml").contacts.at(1).stickSlope, 3);
+  tie.remove("Stick Slope");
+  EXPECT_EQ(scene::readScene(list, "a.xml").contacts.at(1).stickSlope, 8);
+  tie.set("Preload", "force 2");
+  expectSays(says(), {"\"Preload\"", "does not give way"});
+  tie.remove("Preload");
+  tie.set("Coupling", "nodes");
+  expectSays(says(), {"\"Coupling\"", "by mortars"});
+}
+
 } // namespace

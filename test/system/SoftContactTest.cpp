@@ -68,6 +68,23 @@ TEST_P(SoftContactTest, GivesWayByPressureOverStiffness) {
   }
 }
 
+TEST_P(SoftContactTest, ATieGivesWayInBothSenses) {
+  const auto [dimension, order, across] = GetParam();
+  for (const double stiffness : {1e-1, 1e2, 1e6})
+    for (const double pull : {pressedBy, -pressedBy}) {
+      scene::Scene scene = stack(dimension, order, across, stiffness);
+      scene.contacts[0].kind = scene::SurfaceContact::Kind::tied;
+      scene.contacts[0].stickSlope = 0.1 * stiffness;
+      scene.bodies[1].supports.clear(); // tangential springs hold it
+      scene.bodies[1].loads[0].value[0] = -pull;
+      const SolidRun run(scene);
+      expectMoved(run, 0, dimension, 1, pull / youngOfSoft);
+      expectMoved(run, 1, dimension, 1, pull / youngOfSoft + pull / stiffness);
+      expectMoved(run, 1, dimension, 2, 2 * pull / youngOfSoft + pull / stiffness);
+      EXPECT_NEAR(run.solution.energy, -0.5 * run.solution.loadWork, 1e-8 * run.solution.loadWork);
+    }
+}
+
 /// Springs at nodes have the moment of inertia b w³/12 (1 + 2/n²) of the trapezoidal rule.
 TEST(SoftContactTiltTest, ABlockTiltsTooLittleByTwoOverNSquaredPlusTwo) {
   for (const int dimension : {2, 3})
@@ -138,22 +155,42 @@ INSTANTIATE_TEST_SUITE_P(DimensionsOrdersAndMeshes, SoftContactTest,
                          testing::Combine(testing::Values(2, 3), testing::Values(1, 2),
                                           testing::Values(2, 3)));
 
+/// The upper block on a lower one that does not move, pushed along it.
+scene::Scene pushed(int dimension, double shear) {
+  scene::Scene scene = stack(dimension, 1, 2, 0);
+  scene.bodies[1].supports.clear();
+  if (dimension == 3)
+    scene.bodies[1].supports.push_back(slide("front"));
+  scene.bodies[1].supports.push_back(slide("top", -0.01));
+  scene.bodies[0].supports.clear();
+  scene.bodies[0].supports.push_back({"held", "bottom", {0.0, 0.0, 0.0}});
+  scene.bodies[0].supports.push_back({"top", "top", {0.0, 0.0, 0.0}});
+  scene.bodies[1].loads = {{"push", fem::SolidLoad::Kind::traction, {}, "right", {}, {shear, 0, 0}}};
+  return scene;
+}
+
+/// Of the joint, by the trapezoidal rule over its nodes.
+double meanShift(const SolidRun& run, int dimension) {
+  const mesh::Mesh& mesh = *run.decomposition.bodies[1].mesh;
+  const Eigen::VectorXd u = run.displacement(1);
+  double shift = 0, weight = 0;
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+    if (std::abs(mesh.point(node)[static_cast<std::size_t>(dimension - 1)] - 1) < 1e-9) {
+      const bool isEnd = std::abs(mesh.point(node)[0] - 1) > 0.9;
+      const bool isSide = dimension == 3 && std::abs(mesh.point(node)[1] - 0.5) > 0.4;
+      const double share = (isEnd ? 0.5 : 1.0) * (isSide ? 0.5 : 1.0);
+      shift += share * u[node * dimension];
+      weight += share;
+    }
+  return shift / weight;
+}
+
 TEST(StickSlopeTest, SticksBySlopeTimesShift) {
   for (const int dimension : {2, 3}) {
-    scene::Scene scene = stack(dimension, 1, 2, 0);
     constexpr double slope = 40, shear = 0.5;
+    scene::Scene scene = pushed(dimension, shear);
     scene.contacts[0].friction = 0.9;
     scene.contacts[0].stickSlope = slope;
-    scene.bodies[1].supports.clear();
-    if (dimension == 3)
-      scene.bodies[1].supports.push_back(slide("front"));
-    scene.bodies[1].supports.push_back(slide("top", -0.01));
-    scene.bodies[1].loads.clear();
-    scene.bodies[0].supports.clear();
-    scene.bodies[0].supports.push_back({"held", "bottom", {0.0, 0.0, 0.0}});
-    scene.bodies[0].supports.push_back(
-        {"top", "top", {0.0, 0.0, 0.0}}); // the lower block does not move at all
-    scene.bodies[1].loads = {{"push", fem::SolidLoad::Kind::traction, {}, "right", {}, {shear, 0, 0}}};
     const SolidRun run(scene);
     // Force on the right face = area of it × shear, borne by the joint's springs: the mean shift follows.
     double force = 0;
@@ -167,18 +204,18 @@ TEST(StickSlopeTest, SticksBySlopeTimesShift) {
     force = sumOverRanks(*run.decomposition.problem.comm, force);
     EXPECT_NEAR(std::abs(force), shear * 1, 1e-8);
     EXPECT_LT(maxOverRanks(*run.decomposition.problem.comm, slip), 1e-8) << "it sticks";
-    const mesh::Mesh& mesh = *run.decomposition.bodies[1].mesh;
-    const Eigen::VectorXd u = run.displacement(1);
-    double shift = 0, weight = 0; // by the trapezoidal rule over the joint's nodes
-    for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
-      if (std::abs(mesh.point(node)[static_cast<std::size_t>(dimension - 1)] - 1) < 1e-9) {
-        const bool isEnd = std::abs(mesh.point(node)[0] - 1) > 0.9;
-        const bool isSide = dimension == 3 && std::abs(mesh.point(node)[1] - 0.5) > 0.4;
-        const double share = (isEnd ? 0.5 : 1.0) * (isSide ? 0.5 : 1.0);
-        shift += share * u[node * dimension];
-        weight += share;
-      }
-    EXPECT_NEAR(shift / weight, shear * 1 / (2 * slope), 1e-8);
+    EXPECT_NEAR(meanShift(run, dimension), shear * 1 / (2 * slope), 1e-8);
+  }
+}
+
+TEST(SoftTieTest, ShearsBySlopeTimesShift) {
+  for (const int dimension : {2, 3}) {
+    constexpr double slope = 40, shear = 0.5;
+    scene::Scene scene = pushed(dimension, shear);
+    scene.contacts[0].kind = scene::SurfaceContact::Kind::tied;
+    scene.contacts[0].stiffness = 500;
+    scene.contacts[0].stickSlope = slope;
+    EXPECT_NEAR(meanShift(SolidRun(scene), dimension), shear * 1 / (2 * slope), 1e-8);
   }
 }
 

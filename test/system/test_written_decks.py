@@ -172,6 +172,24 @@ class WrittenDecksTest(unittest.TestCase):
         self.assertAlmostEqual(self.resultant(report, "DEPCONTACT - INDCONTACT")[2], 10000, delta=1e-3)
         self.compare(text, found, 2e-3)
 
+    def test_prepomax_tied_contact_is_a_spring_in_both_senses(self):
+        mesh = self.blocks()
+        top_nodes, top = mesh.on("upper", 2, 10)
+        step = ("*Step, Inc=100\n*Static\n*Output, Frequency=1\n*Boundary, op=New\nConstraintFixed, 1, 3, 0\n*Cload, op=New\n"
+                "*Dload, op=New\n")
+        text = prepomax(mesh, re.sub("NSET=", "Nset=", self.sets(mesh)),
+                        "*Surface interaction, Name=Surface_interaction-1\n*Surface behavior, Pressure-overclosure=Tied\n10000\n"
+                        "*Friction\n0.3, 2000\n"
+                        "*Contact pair, Interaction=Surface_interaction-1, Type=Surface to surface\nDEPContact, INDContact\n",
+                        f"{step}{pressure_lines(top, -100.0)}")
+        found, _ = self.solve(text)
+        for node in top_nodes:
+            self.assertAlmostEqual(found[node][2], 0.01 + 10 * 100 / 210000, delta=1e-7)
+        across = "".join(f"{node}, 1, {50 / len(top_nodes):.9g}\n" for node in top_nodes)
+        text = text.replace("*Cload, op=New\n", f"*Cload, op=New\n{across}")
+        found, _ = self.solve(text, ranks=2)
+        self.compare(text, found, 3e-3)
+
     def test_freecad_tie_and_weight_are_those_of_one_body(self):
         mesh = self.blocks(counts=(2, 2, 2))
         text = freecad(mesh, self.sets(mesh), "*TIE, POSITION TOLERANCE=0.1, ADJUST=NO, NAME=TIEConstraintTie\nDEPContact, INDContact\n",
