@@ -245,6 +245,28 @@ class WrittenDecksTest(unittest.TestCase):
         self.assertEqual(len(report.find("ParameterList[@name='Steps']")), 2)
         self.compare(text, found, 2e-3)
 
+    def test_prepomax_bolt_is_tightened_and_then_locked(self):
+        """Without ccx, which cuts off the elements with faces in the section alone, not those that touch it with an edge."""
+        mesh = Mesh()
+        mesh.box("bolt", (0, 0, 0), (4, 4, 20), (1, 1, 4))
+        (bottom, _), (top, _) = mesh.on("bolt", 2, 0), mesh.on("bolt", 2, 20)
+        section, faces = mesh.on("bolt", 2, 10)
+        below = [(element, face) for element, face in faces
+                 if min(mesh.nodes[node][2] for node in mesh.elements[element]) < 9]
+        node = len(mesh.nodes) + 1
+        sets = (f"*Node\n{node}, 2, 2, 10\n*Nset, Nset=Bottom\n{lines(bottom)}*Nset, Nset=Top\n{lines(top)}"
+                f"*Surface, Name=Pre_tension_surface, Type=Element\n{face_lines(below)}")
+        step = "*Step, Inc=100\n*Static\n1, 1, 1E-05, 1E+30\n*Output, Frequency=1\n*Boundary, op=New\n"
+        held = "Bottom, 1, 3, 0\nTop, 3, 3, "
+        text = prepomax(mesh, sets, f"*Pre-tension section, Surface=Pre_tension_surface, Node={node}\n0, 0, 1\n",
+                        f"{step}{held}0\n*Cload, op=New\n{node}, 1, 4200\n*Dload, op=New\n*Node file\nU\n*End step\n"
+                        f"{step}{held}0.01\n*Boundary, Fixed\n{node}, 1, 1\n*Cload, op=New\n*Dload, op=New\n")
+        found, report = self.solve(text)
+        # 4200 N stretch each half by 4200/(16 210000) of its 10 mm; locked it goes on as a whole, by 0.01 of 20 mm
+        forces = report.findall(".//ParameterList[@name='Preload']//Parameter[@name='Force']")
+        self.assertAlmostEqual(float(forces[-1].get("value")), 4200 + 16 * 210000 * 0.01 / 20, delta=1e-3)
+        self.assertAlmostEqual(found[section[0]][2], 0.005 - 4200 * 10 / (16 * 210000), delta=1e-7)
+
     def test_what_cannot_be_solved_is_named_with_its_line(self):
         mesh = self.blocks()
         text = prepomax(mesh, re.sub("NSET=", "Nset=", self.sets(mesh)), "", "*Step\n*Frequency\n10\n")
