@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/BodyFields.hpp"
 #include "epafi/output/FrdRecords.hpp"
+#include "epafi/simulation/SupportResults.hpp"
 
 #include <Eigen/Geometry>
 
@@ -27,7 +28,8 @@ struct WholeBody {
   std::vector<double> points;     ///< 3 a node
   std::vector<double> u;          ///< components a node
   std::vector<long long> corners; ///< of the elements, in rows (mesh/Cell.hpp)
-  std::vector<fem::SymmetricTensor> stresses;
+  std::vector<fem::SymmetricTensor> stresses, strains;
+  std::vector<Vector3> forces;
 
   [[nodiscard]] GlobalOrdinal numNodes() const { return std::ssize(points) / 3; }
   [[nodiscard]] GlobalOrdinal numElements() const { return std::ssize(corners) / numNodesOf(cellType); }
@@ -41,7 +43,9 @@ std::vector<WholeBody> gatherBodies(const simulation::SolvedScene& solved) {
     bodies.push_back({solved.decomposition.bodies[b].name, fields.cellType,
                       gatherOnFirst(solved.comm(), fields.points), gatherOnFirst(solved.comm(), fields.u),
                       gatherOnFirst(solved.comm(), fields.corners),
-                      gatherOnFirst(solved.comm(), simulation::stressesAtNodes(solved, b))});
+                      gatherOnFirst(solved.comm(), simulation::stressesAtNodes(solved, b)),
+                      gatherOnFirst(solved.comm(), simulation::strainsAtNodes(solved, b)),
+                      gatherOnFirst(solved.comm(), simulation::supportForcesAtNodes(solved, b))});
   }
   return bodies;
 }
@@ -202,6 +206,10 @@ void FrdFile::add(const simulation::SolvedScene& solved, const simulation::Evalu
     });
     putBlock(text, place, bodies, numbers, frdStress,
              [](const WholeBody& body, GlobalOrdinal node) { return body.stresses[node]; });
+    putBlock(text, place, bodies, numbers, frdStrain,
+             [](const WholeBody& body, GlobalOrdinal node) { return body.strains[node]; });
+    putBlock(text, place, bodies, numbers, frdForce,
+             [](const WholeBody& body, GlobalOrdinal node) { return body.forces[node]; });
     if (!contacts.empty())
       putContacts(text, place, atNodes(contacts, contactValues, numbers));
     text_ += text;

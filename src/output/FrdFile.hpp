@@ -24,7 +24,8 @@ void requireElasticBodies(const scene::Scene& scene, const std::string& asker);
 /// The text of one file, on rank 0, which holds all of it: the nodes and elements of all bodies, and blocks
 /// of results of one load step after the other:
 /// - DISP, the displacement;
-/// - STRESS at the nodes (simulation::stressesAtNodes);
+/// - STRESS and TOSTRAIN at the nodes (simulation::stressesAtNodes, strainsAtNodes);
+/// - FORC, the forces of supports (simulation::supportForcesAtNodes);
 /// - CONTACT, of scenes with contacts, at the nodes that have a row: COPEN, the gap that remains, CPRESS, the
 ///   pressure around the node, and, with friction, CSLIP and CSHEAR, by how much its side slips on the other
 ///   one and the force per area that it has on that, along CalculiX' tangents: x as the surface has it (z

@@ -91,6 +91,18 @@ const char* const frdStress = " -4  STRESS      6    1\n"
                               " -5  SXY         1    4    1    2\n"
                               " -5  SYZ         1    4    2    3\n"
                               " -5  SZX         1    4    3    1\n";
+const char* const frdStrain = " -4  TOSTRAIN    6    1\n"
+                              " -5  EXX         1    4    1    1\n"
+                              " -5  EYY         1    4    2    2\n"
+                              " -5  EZZ         1    4    3    3\n"
+                              " -5  EXY         1    4    1    2\n"
+                              " -5  EYZ         1    4    2    3\n"
+                              " -5  EZX         1    4    3    1\n";
+const char* const frdForce = " -4  FORC        4    1\n"
+                             " -5  F1          1    2    1    0\n"
+                             " -5  F2          1    2    2    0\n"
+                             " -5  F3          1    2    3    0\n"
+                             " -5  ALL         1    2    0    0    1ALL\n";
 const char* const frdContact = " -4  CONTACT     6    1\n"
                                " -5  COPEN       1    4    1    1\n"
                                " -5  CSLIP1      1    4    2    2\n"

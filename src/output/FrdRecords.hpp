@@ -30,7 +30,8 @@ void putFrdElement(std::string& text, GlobalOrdinal number, int material, mesh::
 void putFrdEnd(std::string& text);
 
 /// What results are: names and kinds of their components, line by line.
-extern const char *const frdDisplacement, *const frdStress, *const frdContact;
+extern const char *const frdDisplacement, *const frdStress, *const frdStrain, *const frdForce,
+                                                                                  *const frdContact;
 
 /// Where in a file results are.
 struct FrdPlace {

@@ -96,15 +96,15 @@ double largestDisplacement(const SolvedScene& solved, int body) {
   return maxOverRanks(*problem.comm, largest);
 }
 
-} // namespace
-
-std::vector<fem::SymmetricTensor> stressesAtNodes(const SolvedScene& solved, int body) {
+/// As stressesAtNodes, of a body that is made of what `asked` is. Collective.
+std::vector<fem::SymmetricTensor> tensorsAtNodes(const SolvedScene& solved, int body,
+                                                 const scene::Body& asked) {
   const std::size_t place = body;
   const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
   const model::BodyLayout& layout = solved.decomposition.bodies[place];
   MultiVector sums(nodesOfBody(problem, body), numStresses + 1);
   collectively(*problem.comm, [&] {
-    accuracy::BodyElements elements(solved.scene.bodies[place], layout);
+    accuracy::BodyElements elements(asked, layout);
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
       if (problem.subdomains[s].body == body)
         addSubdomain(sumFlux(elements, problem.subdomains[s], solved.solution.displacement[s]),
@@ -121,6 +121,20 @@ std::vector<fem::SymmetricTensor> stressesAtNodes(const SolvedScene& solved, int
     for (std::size_t k = 0; k < numStresses; ++k)
       result[row][k] = columns[k][row] / columns[numStresses][row];
   return result;
+}
+
+} // namespace
+
+std::vector<fem::SymmetricTensor> stressesAtNodes(const SolvedScene& solved, int body) {
+  return tensorsAtNodes(solved, body, solved.scene.bodies[body]);
+}
+
+std::vector<fem::SymmetricTensor> strainsAtNodes(const SolvedScene& solved, int body) {
+  scene::Body unit = solved.scene.bodies[body]; // whose stresses are strains
+  unit.material = {.youngsModulus = 1, .poissonsRatio = 0, .thickness = unit.material.thickness};
+  unit.regions.clear();
+  unit.loads.clear();
+  return tensorsAtNodes(solved, body, unit);
 }
 
 std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body) {

@@ -25,7 +25,10 @@ namespace epafi::simulation {
 /// elastic. Collective.
 std::vector<fem::SymmetricTensor> stressesAtNodes(const SolvedScene& solved, int body);
 
-/// Von Mises' norm of these. Likewise.
+/// Strain likewise, that of temperatures in it; of plane stress without that across the plane.
+std::vector<fem::SymmetricTensor> strainsAtNodes(const SolvedScene& solved, int body);
+
+/// Von Mises' norm of stresses at nodes. Likewise.
 std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body);
 
 /// η_T, the error in the energy norm of each cell of a body, of this rank's slab (evenShare of the cells).

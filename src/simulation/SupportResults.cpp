@@ -2,13 +2,19 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Maps.hpp"
+#include "epafi/base/Slab.hpp"
 
 #include <Eigen/Geometry>
+#include <Teuchos_Array.hpp>
+#include <Tpetra_Export.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 namespace epafi::simulation {
 namespace {
@@ -64,6 +70,42 @@ Vector3d axisOf(const Subdomain& subdomain, int position, int components) {
 }
 
 } // namespace
+
+std::vector<Vector3> supportForcesAtNodes(const SolvedScene& solved, int body) {
+  const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
+  const RCP<const Vector> multipliers = multipliersAtSupports(solved);
+  std::map<GlobalOrdinal, Vector3d> held;
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+    const Subdomain& subdomain = problem.subdomains[s];
+    if (subdomain.body != body || subdomain.held.positions.empty())
+      continue;
+    const Eigen::VectorXd forces = heldForces(solved, s, *multipliers);
+    for (std::size_t i = 0; i < subdomain.held.positions.size(); ++i) {
+      const int position = subdomain.held.positions[i];
+      held.try_emplace(subdomain.nodes[position / problem.components], Vector3d::Zero()).first->second +=
+          forces[i] * axisOf(subdomain, position, problem.components);
+    }
+  }
+  std::vector<GlobalOrdinal> nodes;
+  for (const auto& [node, force] : held)
+    nodes.push_back(node);
+  MultiVector sums(makeMap(std::move(nodes), problem.comm), 3);
+  for (const auto& [node, force] : held)
+    for (std::size_t d = 0; d < 3; ++d)
+      sums.replaceGlobalValue(node, d, force[d]);
+  MultiVector slab(slabMap(solved.decomposition.bodies[body].mesh->numNodes(), problem.comm), 3);
+  slab.doExport(sums, Export(sums.getMap(), slab.getMap()), Tpetra::ADD);
+  Teuchos::Array<double> largest(3);
+  slab.normInf(largest());
+  const double none = 1e-12 * *std::max_element(largest.begin(), largest.end()); // round-off
+  std::vector<Vector3> result(slab.getLocalLength());
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto column = slab.getData(d);
+    for (std::size_t k = 0; k < result.size(); ++k)
+      result[k][d] = std::abs(column[k]) > none ? column[k] : 0;
+  }
+  return result;
+}
 
 std::vector<SupportResult> supportResults(const SolvedScene& solved) {
   const decomposition::DecomposedProblem& problem = solved.decomposition.problem;

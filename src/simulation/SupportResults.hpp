@@ -21,4 +21,8 @@ struct SupportResult {
 /// balance there. Sums are the same to the last digit on any number of ranks. Collective.
 std::vector<SupportResult> supportResults(const SolvedScene& solved);
 
+/// The force that supports hold each node of a body with, of this rank's slab (evenShare of the nodes); 0
+/// where none does. Of solids of revolution all around, the radial force too. Collective.
+std::vector<Vector3> supportForcesAtNodes(const SolvedScene& solved, int body);
+
 } // namespace epafi::simulation

@@ -161,7 +161,7 @@ TEST_F(FrdFileTest, PrismsStandAsCalculixHasThemAndPyramidsAsHexahedraWithoutATo
             " -2         1         2         3         4         5         5         5         5\n");
 }
 
-TEST_F(FrdFileTest, ABarInTensionHasItsStressAtEveryNode) {
+TEST_F(FrdFileTest, ABarInTensionHasItsStressAndStrainAtEveryNode) {
   const auto pulled = [](const Point& x) { // by 1 %, E = 200, ν = 0.3
     return std::array<double, 3>{0.01 * x[0], -0.003 * x[1], -0.003 * x[2]};
   };
@@ -185,6 +185,12 @@ TEST_F(FrdFileTest, ABarInTensionHasItsStressAtEveryNode) {
       for (const auto& [number, stress] : frd.blocks[1].values)
         for (std::size_t k = 0; k < 6; ++k)
           EXPECT_NEAR(stress.at(k), expected[k], 1e-5) << number << ", " << k;
+      ASSERT_EQ(frd.blocks.at(2).name, "TOSTRAIN");
+      const double ezz = mesh::dimensionOf(kind.cell) == 3 ? -0.003 : 0;
+      const std::array<double, 6> strains{0.01, -0.003, ezz, 0, 0, 0};
+      for (const auto& [number, strain] : frd.blocks[2].values)
+        for (std::size_t k = 0; k < 6; ++k)
+          EXPECT_NEAR(strain.at(k), strains[k], 1e-8) << number << ", " << k;
     }
 }
 
@@ -199,11 +205,11 @@ TEST_F(FrdFileTest, TheLoadIsThePressureAtTheNodesOfTheContactAlone) {
       if (!isFirst)
         continue;
       const std::size_t up = static_cast<std::size_t>(mesh::dimensionOf(kind.cell)) - 1;
-      ASSERT_EQ(frd.blocks.size(), 3U);
-      ASSERT_EQ(frd.blocks[2].name, "CONTACT");
-      EXPECT_EQ(frd.blocks[2].numNodes, frd.blocks[2].values.size());
-      EXPECT_EQ(frd.blocks[2].values.size(), static_cast<std::size_t>(std::pow(4 * order + 1, up)));
-      for (const auto& [number, values] : frd.blocks[2].values) {
+      ASSERT_EQ(frd.blocks.size(), 5U);
+      ASSERT_EQ(frd.blocks[4].name, "CONTACT");
+      EXPECT_EQ(frd.blocks[4].numNodes, frd.blocks[4].values.size());
+      EXPECT_EQ(frd.blocks[4].values.size(), static_cast<std::size_t>(std::pow(4 * order + 1, up)));
+      for (const auto& [number, values] : frd.blocks[4].values) {
         EXPECT_EQ(frd.nodes.at(number)[up], 1) << number;
         ASSERT_EQ(values.size(), 6U);
         EXPECT_NEAR(values[0], 0, 1e-7) << "COPEN of " << number;
@@ -243,16 +249,16 @@ TEST_F(FrdFileTest, SlipAndShearAreThoseOfTheSideWithTheNodes) {
         const Frd frd(textOf(run));
         if (!isFirst)
           continue;
-        ASSERT_EQ(frd.blocks.at(2).name, "CONTACT");
+        ASSERT_EQ(frd.blocks.at(4).name, "CONTACT");
         const bool areUpper = isUpperFirst == (side == Side::first);
         // the other side's normal is z, or y, for nodes of the upper block: its second tangent follows
         const double sign = areUpper ? 1 : -1;
-        for (const auto& [number, values] : frd.blocks[2].values) {
+        for (const auto& [number, values] : frd.blocks[4].values) {
           EXPECT_EQ(number > frd.nodes.rbegin()->first / 2, areUpper);
           EXPECT_LE(std::hypot(values[4], values[5]), 0.2 * values[3] * 1.0001 + 1e-9) << number;
         }
         const auto pressed = std::max_element(
-            frd.blocks[2].values.begin(), frd.blocks[2].values.end(),
+            frd.blocks[4].values.begin(), frd.blocks[4].values.end(),
             [](const auto& a, const auto& b) { return std::abs(a.second[1]) < std::abs(b.second[1]); });
         const std::vector<double>& values = pressed->second;
         EXPECT_GT(sign * values[1], 1e-3) << "CSLIP1";
@@ -278,16 +284,16 @@ TEST_F(FrdFileTest, StepsFollowEachOtherOnOneMesh) {
   }
   EXPECT_TRUE(frd.isComplete);
   EXPECT_EQ(frd.nodes.size(), 50U);
-  ASSERT_EQ(frd.blocks.size(), 9U);
-  for (std::size_t k = 0; k < 9; ++k) {
+  ASSERT_EQ(frd.blocks.size(), 15U);
+  for (std::size_t k = 0; k < 15; ++k) {
     const FrdBlock& block = frd.blocks[k];
-    const int number = static_cast<int>(k / 3) + 1;
-    EXPECT_EQ(block.name, (std::array{"DISP", "STRESS", "CONTACT"}[k % 3]));
+    const int number = static_cast<int>(k / 5) + 1;
+    EXPECT_EQ(block.name, (std::array{"DISP", "STRESS", "TOSTRAIN", "FORC", "CONTACT"}[k % 5]));
     EXPECT_EQ(block.time, number);
     EXPECT_EQ(block.increment, number);
     EXPECT_EQ(block.numStep, number);
     EXPECT_EQ(block.step, number == 2 ? "" : "load it");
-    if (k % 3 == 0) {
+    if (k % 5 == 0) {
       EXPECT_NEAR(block.values.at(5).at(0), number * frd.nodes.at(5)[0], 1e-5);
     }
   }

@@ -3,6 +3,7 @@
 #include "support/SolidScenes.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Slab.hpp"
 #include "epafi/scene/ModelProblem.hpp"
 #include "epafi/simulation/RunResult.hpp"
 #include "epafi/simulation/SceneRun.hpp"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +60,26 @@ TEST_F(SupportResultsTest, AClampHoldsForceAndMomentOfTheLoads) {
     const double x = 0.5 * 7 - 0.5 * 5, y = 0.5 * 3 - 2 * 7, z = 2 * 5 - 0.5 * 3;
     expectNear(held[0].moment, {-(x - 0.5 * 4 + 0.5 * 13), -(y + 4 + 0.5 * 11), -(z - 0.5 * 11)}, 1e-9);
   }
+}
+
+TEST_F(SupportResultsTest, ForcesAtNodesAddUpToThoseOfTheSupports) {
+  scene::Scene scene;
+  scene.bodies = {cube()};
+  scene.bodies[0].supports = {{"clamp", "left", {0.0, 0.0, 0.0}}};
+  scene.bodies[0].loads = {{"pull", Load::traction, {}, "right", {}, {3, 5, 7}}};
+  SceneRun run = solveScene(scene, {}, comm_);
+  const mesh::Mesh& mesh = *run.decomposition->bodies[0].mesh;
+  const std::vector<Vector3> forces = supportForcesAtNodes(run.solved(), 0);
+  const RowRange slab = evenShare(mesh.numNodes(), *comm_);
+  ASSERT_EQ(std::ssize(forces), slab.count);
+  std::array<double, 3> sum{};
+  for (GlobalOrdinal k = 0; k < slab.count; ++k)
+    for (std::size_t d = 0; d < 3; ++d) {
+      EXPECT_TRUE(forces[k][d] == 0 || mesh.point(slab.first + k)[0] == 0);
+      sum[d] += forces[k][d];
+    }
+  sumOverRanks(*comm_, std::span(sum));
+  expectNear(sum, {-3, -5, -7}, 1e-8);
 }
 
 TEST_F(SupportResultsTest, PrescribedDisplacementsAreHeldByWhatTheyStrain) {

@@ -222,8 +222,8 @@ class Friction(unittest.TestCase):
     def assert_steps_of_one_mesh(self, file, shorter):
         """Blocks of all steps, the first two steps' as if the run had ended there."""
         text = file.read_text(encoding="utf-8")
-        self.assertEqual(re.findall("^    1PNAME +(.+)$", text, re.MULTILINE), [name for name in STEPS for _ in range(3)])
-        self.assertEqual(re.findall("^ -4  ([A-Z]+) ", text, re.MULTILINE), 3 * ["DISP", "STRESS", "CONTACT"])
+        self.assertEqual(re.findall("^    1PNAME +(.+)$", text, re.MULTILINE), [name for name in STEPS for _ in range(5)])
+        self.assertEqual(re.findall("^ -4  ([A-Z]+) ", text, re.MULTILINE), 3 * ["DISP", "STRESS", "TOSTRAIN", "FORC", "CONTACT"])
         self.assertEqual(text.count("    2C"), 1)
         self.assertTrue(text.endswith("\n -3\n 9999\n"))
         self.assertTrue(text.startswith(shorter.read_text(encoding="utf-8").removesuffix(" 9999\n")))
