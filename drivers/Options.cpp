@@ -3,6 +3,7 @@
 #include "CommandLine.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/deck/DeckModel.hpp"
 #include "epafi/meshing/MeshSource.hpp"
 
 #include <charconv>
@@ -37,6 +38,7 @@ Options parseOptions(int argc, const char* const* argv) {
       .value("--output", options.output)
       .value("--report", options.report)
       .value("--frd", options.frd)
+      .value("--dat", options.dat)
       .value("--export", options.exported)
       .value("--restart", options.restart)
       .value("--checkpoint-interval",
@@ -60,6 +62,8 @@ Options parseOptions(int argc, const char* const* argv) {
   if ((options.list || options.printPairs) && !meshing::isStep(options.scene))
     throw InputError("options --list and --print-pairs are for STEP files (.step), but '" + options.scene +
                      "' is none");
+  if (!options.dat.empty() && !deck::isDeck(options.scene))
+    throw InputError("option --dat is for input decks, but '" + options.scene + "' is none (.inp)");
   if (options.scene.empty() && !options.printParameters && !options.help && !options.version)
     throw InputError("no scene is given; call epafi SCENE.xml (see epafi --help)");
   return options;
@@ -81,6 +85,7 @@ std::string usage() {
          "  --frd FILE.frd                         write displacements, stresses and contact of elastic "
          "bodies as\n"
          "                                         CalculiX does, for FreeCAD, PrePoMax and cgx\n"
+         "  --dat FILE.dat                         write what a deck asks to be printed, as CalculiX does\n"
          "  --export SCENE.xml                     write a deck as a scene with its mesh beside it, "
          "SCENE.msh, or\n"
          "                                         an assembly as a whole scene, and solve nothing\n"

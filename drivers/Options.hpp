@@ -15,6 +15,7 @@ struct Options {
   std::string report;                 ///< --report FILE; empty: only DIR/report.xml
   std::string exported;               ///< --export FILE; empty: none, the scene is solved
   std::string frd;                    ///< --frd FILE; empty: none
+  std::string dat;                    ///< --dat FILE; empty: none
   std::string restart;                ///< --restart FILE, a checkpoint; empty: from the beginning
   double checkpointInterval = 600;    ///< --checkpoint-interval, seconds; 0: only at the end
   bool printParameters = false, list = false, printPairs = false, quiet = false, help = false,

@@ -109,6 +109,8 @@ void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
   }
   if (!options_.frd.empty())
     prepareFrd(run, files);
+  if (!options_.dat.empty())
+    preparePrints(run, files);
   if (hasStage_ && !failures_.empty())
     run.result.reason += "; not all files of this " + stageOf(run.result) +
                          " could be written: what is missing may be there of a " + stageOf(run.result) +
@@ -160,6 +162,17 @@ void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
       frd_.add(run.solved(), run.evaluation, {steps.back().name, static_cast<int>(steps.size())});
     files.write(options_.frd, [&] { return frd_.text(); });
     return line("frd", options_.frd);
+  });
+}
+
+void RunFiles::preparePrints(simulation::SceneRun& run, output::FileSet& files) {
+  attempt(options_.dat, [&] {
+    const std::size_t numSteps = std::max<std::size_t>(1, run.result.steps.size());
+    if (numSteps == 1)
+      prints_ = DeckPrints(comm_->getRank() == 0 ? options_.scene : "");
+    prints_.add(run, numSteps - 1);
+    files.write(options_.dat, [&] { return prints_.text(); });
+    return line("dat", options_.dat);
   });
 }
 

@@ -2,6 +2,7 @@
 
 /// The files of a run of the driver.
 
+#include "DeckPrints.hpp"
 #include "Options.hpp"
 #include "RunWatch.hpp"
 #include "epafi/simulation/SceneRun.hpp"
@@ -47,6 +48,7 @@ private:
   void prepare(simulation::SceneRun& run, output::FileSet& files);
   void prepareFields(simulation::SceneRun& run, output::FileSet& files);
   void prepareFrd(simulation::SceneRun& run, output::FileSet& files);
+  void preparePrints(simulation::SceneRun& run, output::FileSet& files);
   void enterTimes(simulation::SceneRun& run);
   void announce(const simulation::SceneRun& run);
   void noteLostFields();
@@ -61,6 +63,7 @@ private:
   bool hasFields_ = false;               ///< those of the stage at hand are written
   std::vector<output::FieldStep> steps_; ///< up to the one at hand, but those whose fields are lost
   output::FrdFile frd_;                  ///< of the mesh at hand, up to the step at hand
+  DeckPrints prints_{""};                ///< likewise
   std::string lines_;
   std::vector<std::string> failures_;
   std::vector<std::string> lost_; ///< likewise, of fields of steps that no later stage makes up for

@@ -84,8 +84,9 @@ simulation::SceneRun solveAsAsked(const Task& task, const RCP<const Comm>& comm,
 /// Better now than after an hour. Collective.
 void requireTargets(const Options& options, const Comm& comm) {
   std::vector<std::filesystem::path> files = reportsOf(options);
-  if (!options.frd.empty())
-    files.emplace_back(options.frd);
+  for (const std::string& file : {options.frd, options.dat})
+    if (!file.empty())
+      files.emplace_back(file);
   for (const auto& file : files) {
     collectively(comm, [&] {
       std::error_code ignored;

@@ -209,6 +209,15 @@ struct PairChange {
   bool isAdded = false;
 };
 
+/// *NODE PRINT or *CONTACT PRINT: what is to be printed at the end of a step.
+struct Print {
+  enum class Totals { none, beside, alone };
+  std::string set{};                      ///< of nodes; empty: of a contact
+  std::string dependent{}, independent{}; ///< surfaces of the contact; empty: of all contacts
+  std::vector<std::string> fields{};      ///< U, RF; CF
+  Totals totals = Totals::none;
+};
+
 struct Step {
   Place place;
   bool isNonlinear = false; ///< NLGEOM
@@ -222,6 +231,7 @@ struct Step {
   std::vector<Temperature> temperatures;
   std::vector<FrictionChange> frictions;
   std::vector<PairChange> pairs;
+  std::vector<Print> prints; ///< without one of its kind, those of the step before
 };
 
 /// What makes no difference here and is passed over; named once.

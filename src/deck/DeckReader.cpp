@@ -62,6 +62,8 @@ const std::vector<Heeded> heededKeywords{
     {"DLOAD", Where::step, {"OP", "AMPLITUDE", "TIMEDELAY"}, readElementLoad},
     {"DSLOAD", Where::step, {"OP", "AMPLITUDE", "TIMEDELAY"}, readSurfaceLoad},
     {"TEMPERATURE", Where::step, {"OP", "AMPLITUDE", "TIMEDELAY"}, readTemperature},
+    {"NODE PRINT", Where::anywhere, {}, readNodePrint},
+    {"CONTACT PRINT", Where::anywhere, {}, readContactPrint},
     {"CHANGE FRICTION", Where::step, {"INTERACTION"}, readFrictionChange},
     {"MODEL CHANGE", Where::step, {"TYPE", "ADD", "REMOVE"}, readModelChange}};
 
@@ -87,6 +89,8 @@ const Heeded* findHeeded(const std::string& keyword) {
 
 /// Names parameters that make no difference, and refuses those that are not known.
 void checkParameters(Reading& reading, const Card& card, const Heeded& heeded) {
+  if (card.keyword.ends_with("PRINT")) // whose parameters change nothing but how much is printed
+    return;
   for (const Parameter& parameter : card.parameters) {
     if (std::find(heeded.parameters.begin(), heeded.parameters.end(), parameter.name) !=
         heeded.parameters.end())

@@ -2,7 +2,44 @@
 
 #include "epafi/base/Errors.hpp"
 
+#include <algorithm>
+
 namespace epafi::deck {
+namespace {
+
+/// Takes those of the fields that are known, and passes over the others.
+void addPrint(Reading& reading, const Card& card, Print print, std::initializer_list<const char*> known) {
+  const std::string totals = card.value("TOTALS");
+  print.totals = totals == "YES"    ? Print::Totals::beside
+                 : totals == "ONLY" ? Print::Totals::alone
+                                    : Print::Totals::none;
+  for (const Line& line : card.data) {
+    const Fields fields(card, line);
+    for (int i = 0; i < fields.size(); ++i) {
+      const std::string field = squeezed(fields[i]);
+      if (std::find(known.begin(), known.end(), field) != known.end())
+        print.fields.push_back(field);
+      else if (!field.empty())
+        reading.ignore(card.shown + ' ' + shortened(field), line.place());
+    }
+  }
+  reading.step().prints.push_back(std::move(print));
+}
+
+} // namespace
+
+void readNodePrint(Reading& reading, const Card& card) {
+  if (!reading.isInStep || !card.has("NSET"))
+    return reading.ignore(card.shown, card.place);
+  addPrint(reading, card, {.set = reading.nodeSet(card, "NSET")}, {"U", "RF"});
+}
+
+void readContactPrint(Reading& reading, const Card& card) {
+  if (!reading.isInStep)
+    return reading.ignore(card.shown, card.place);
+  addPrint(reading, card, {.dependent = card.value("SLAVE"), .independent = card.value("MASTER")}, {"CF"});
+}
+
 void readHeading(Reading& reading, const Card& card) {
   if (reading.deck.title.empty() && !card.data.empty())
     reading.deck.title = card.data[0].text;

@@ -10,5 +10,7 @@ void readHeading(Reading& reading, const Card& card);
 void readStep(Reading& reading, const Card& card);
 void readStatic(Reading& reading, const Card& card);
 void readEndStep(Reading& reading, const Card& card);
+void readNodePrint(Reading& reading, const Card& card);
+void readContactPrint(Reading& reading, const Card& card);
 
 } // namespace epafi::deck

@@ -23,15 +23,30 @@ TEST(DeckReaderTest, NamesTheFirstThingBeyondAndOthersBehind) {
 TEST(DeckReaderTest, PassesOverWhatMakesNoDifferenceAndNamesItOnce) {
   const deck::Deck deck =
       withStep("*NODE FILE\nU\n*EL FILE\nS\n*NODE FILE, FREQUENCY=5\nRF\n*RESTART, WRITE\n"
-               "*NODE PRINT, NSET=base, GLOBAL=YES\nU\n");
+               "*EL PRINT, ELSET=base, GLOBAL=YES\nS\n");
   ASSERT_EQ(deck.ignored.size(), 4u);
   EXPECT_EQ(deck.ignored[0].keyword, "*NODE FILE");
   EXPECT_EQ(deck.ignored[0].place.line, 12);
   EXPECT_EQ(deck.ignored[2].keyword, "*RESTART");
-  EXPECT_EQ(deck.ignored[3].keyword, "*NODE PRINT");
+  EXPECT_EQ(deck.ignored[3].keyword, "*EL PRINT");
   EXPECT_EQ(withTetrahedron("*STEP\n*STATIC, SOLVER=SPOOLES\n*END STEP\n").ignored[0].keyword,
             "*STATIC, SOLVER");
   expectSays(refusalInStep("*RESTART, READ\n"), {"line 12: *RESTART, READ: "});
+}
+
+TEST(DeckReaderTest, ReadsWhatIsToBePrinted) {
+  const deck::Deck deck =
+      withStep("*NODE PRINT, NSET=BASE, TOTALS=ONLY, FREQUENCY=9\nRF, NT\n*CONTACT PRINT\nCF, CSTR\n");
+  const std::vector<deck::Print>& prints = deck.steps[0].prints;
+  ASSERT_EQ(prints.size(), 2u);
+  EXPECT_EQ(prints[0].set, "BASE");
+  EXPECT_EQ(prints[0].fields, std::vector<std::string>{"RF"});
+  EXPECT_EQ(prints[0].totals, deck::Print::Totals::alone);
+  EXPECT_EQ(prints[1].fields, std::vector<std::string>{"CF"});
+  EXPECT_EQ(prints[1].totals, deck::Print::Totals::none);
+  ASSERT_EQ(deck.ignored.size(), 2u);
+  EXPECT_EQ(deck.ignored[0].keyword, "*NODE PRINT NT");
+  EXPECT_EQ(deck.ignored[1].keyword, "*CONTACT PRINT CSTR");
 }
 
 TEST(DeckReaderTest, ReadsTheTitle) {

@@ -274,6 +274,7 @@ class RefusesWrongInput(Driver):
         self.assertEqual([file.name for file in self.place.iterdir()], ["file"])
         copy = self.changed("stacked_blocks")
         self.expect(WRONG_INPUT, ["overwrite"], copy, "--frd", copy)
+        self.expect(WRONG_INPUT, ["--dat", "input decks"], copy, "--dat", self.place / "out.dat")
 
 
 PLATE = """

@@ -115,9 +115,9 @@ class WrittenDecksTest(unittest.TestCase):
 
     def solve(self, text, ranks=1):
         """Displacements, and the report."""
-        deck, frd, report = (self.folder / name for name in ("model.inp", "epafi.frd", "report.xml"))
+        deck, frd, report, dat = (self.folder / name for name in ("model.inp", "epafi.frd", "report.xml", "epafi.dat"))
         deck.write_text(text, encoding="utf-8")
-        command = [EPAFI, deck, "--quiet", "--frd", frd, "--report", report]
+        command = [EPAFI, deck, "--quiet", "--frd", frd, "--report", report, "--dat", dat]
         done = subprocess.run([*(LAUNCH + [str(ranks)] if ranks > 1 else []), *command], capture_output=True, text=True,
                               timeout=240, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -259,13 +259,49 @@ class WrittenDecksTest(unittest.TestCase):
         step = "*Step, Inc=100\n*Static\n1, 1, 1E-05, 1E+30\n*Output, Frequency=1\n*Boundary, op=New\n"
         held = "Bottom, 1, 3, 0\nTop, 3, 3, "
         text = prepomax(mesh, sets, f"*Pre-tension section, Surface=Pre_tension_surface, Node={node}\n0, 0, 1\n",
-                        f"{step}{held}0\n*Cload, op=New\n{node}, 1, 4200\n*Dload, op=New\n*Node file\nU\n*End step\n"
+                        f"{step}{held}0\n*Cload, op=New\n{node}, 1, 4200\n*Dload, op=New\n*Node file\nU\n"
+                        f"*Node print, Nset=Bottom, Totals=Only\nRF\n*End step\n"
                         f"{step}{held}0.01\n*Boundary, Fixed\n{node}, 1, 1\n*Cload, op=New\n*Dload, op=New\n")
         found, report = self.solve(text)
         # 4200 N stretch each half by 4200/(16 210000) of its 10 mm; locked it goes on as a whole, by 0.01 of 20 mm
         forces = report.findall(".//ParameterList[@name='Preload']//Parameter[@name='Force']")
         self.assertAlmostEqual(float(forces[-1].get("value")), 4200 + 16 * 210000 * 0.01 / 20, delta=1e-3)
+        totals = re.findall(r"total force .* BOTTOM and time  (\S+)\n\n\s*\S+\s+\S+\s+(\S+)",
+                            (self.folder / "epafi.dat").read_text(encoding="utf-8"))
+        for (time, force), expected in zip(totals, [(1, -4200), (2, -5880)], strict=True):
+            self.assertEqual(float(time), expected[0])
+            self.assertAlmostEqual(float(force), expected[1], delta=1e-2)
         self.assertAlmostEqual(found[section[0]][2], 0.005 - 4200 * 10 / (16 * 210000), delta=1e-7)
+
+    def test_prints_have_the_words_and_numbers_of_calculix(self):
+        def printed(name):
+            text = (self.folder / name).read_text(encoding="utf-8")
+            sums = [re.search(words + r".*\n\n\s*(\S+)\s+(\S+)\s+(\S+)", text).groups()
+                    for words in (r"total force \(fx,fy,fz\) for set CONSTRAINTFIXED and time ", r"total surface force \(fx,fy,fz\)")]
+            block = text[text.index("displacements (vx,vy,vz) for set SIDEX and time "):].split("\n\n")[1]
+            rows = [line.split() for line in block.splitlines()]
+            return [float(x) for sum_ in sums for x in sum_], {int(node): [float(x) for x in u] for node, *u in rows}
+
+        mesh = self.blocks()
+        _, top = mesh.on("upper", 2, 10)
+        text = freecad(mesh, self.sets(mesh),
+                       "*CONTACT PAIR, INTERACTION=INTContact, TYPE=SURFACE TO SURFACE\nDEPContact, INDContact\n"
+                       "*SURFACE INTERACTION, NAME=INTContact\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n10000\n",
+                       "*ELASTIC\n210000, 0", f"*STEP\n*STATIC\n{self.HELD}*DLOAD\n{pressure_lines(top, 100.0)}"
+                       "*NODE PRINT, NSET=SideX\nU\n*CONTACT PRINT, SLAVE=DEPContact, MASTER=INDContact, TOTALS=ONLY\nCF\n")
+        found, _ = self.solve(text, ranks=2)
+        sums, u = printed("epafi.dat")
+        for value, expected in zip(sums, [0, 0, 10000, 0, 0, 10000]):
+            self.assertAlmostEqual(value, expected, delta=1e-2)
+        self.assertEqual(sorted(u), sorted(set(mesh.on("lower", 0, 0)[0] + mesh.on("upper", 0, 0)[0])))
+        for node, vector in u.items():
+            self.assertAlmostEqual(vector[2], found[node][2], delta=1e-7)
+        self.compare(text, found, 2e-3)
+        if shutil.which("ccx"):
+            theirs, their_u = printed("theirs.dat")
+            for value, expected in zip(sums, theirs):
+                self.assertAlmostEqual(value, expected, delta=20)
+            self.assertEqual(their_u.keys(), u.keys())
 
     def test_what_cannot_be_solved_is_named_with_its_line(self):
         mesh = self.blocks()
