@@ -76,8 +76,8 @@ public:
 
   /// Names of the surfaces: "left" … "top" of a structured mesh, physical groups of a Gmsh file.
   [[nodiscard]] virtual std::vector<std::string> surfaceNames() const = 0;
-  /// Precondition: `name` is one of surfaceNames(), or empty: the elements of a whole mesh in the plane, which
-  /// face upwards.
+  /// Precondition: `name` is one of surfaceNames(), or empty: all elements of a whole mesh in the plane,
+  /// facing upwards.
   [[nodiscard]] virtual Surface surface(const std::string& name) const = 0;
   /// Names of the element groups that a file gives; structured meshes have none.
   [[nodiscard]] virtual std::vector<std::string> groupNames() const = 0;
