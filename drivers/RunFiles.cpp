@@ -155,7 +155,9 @@ void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
   attempt(options_.frd, [&] {
     const std::vector<simulation::StepResult>& steps = run.result.steps;
     if (steps.size() < 2) // of other meshes before
-      frd_ = output::FrdFile(comm_->getRank() == 0 ? numberingOf(options_.scene) : output::FrdNumbering());
+      collectively(*comm_, [&] {
+        frd_ = output::FrdFile(comm_->getRank() == 0 ? numberingOf(options_.scene) : output::FrdNumbering());
+      });
     if (steps.empty())
       frd_.add(run.solved(), run.evaluation);
     else
@@ -169,7 +171,7 @@ void RunFiles::preparePrints(simulation::SceneRun& run, output::FileSet& files) 
   attempt(options_.dat, [&] {
     const std::size_t numSteps = std::max<std::size_t>(1, run.result.steps.size());
     if (numSteps == 1)
-      prints_ = DeckPrints(comm_->getRank() == 0 ? options_.scene : "");
+      collectively(*comm_, [&] { prints_ = DeckPrints(comm_->getRank() == 0 ? options_.scene : ""); });
     prints_.add(run, numSteps - 1);
     files.write(options_.dat, [&] { return prints_.text(); });
     return line("dat", options_.dat);

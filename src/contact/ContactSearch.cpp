@@ -36,9 +36,8 @@ std::optional<Approach> approachTo(const Obstacle& obstacle, const Vector3d& poi
 }
 
 /// What may stop the deflection at a point of a membrane at z = 0, and how far away it is; nothing: a line
-/// along z misses the obstacle. \throws InputError if it is cut in halves
-std::optional<Approach> approachAlongZ(const ContactTerms& contact, const Obstacle& obstacle,
-                                       const Vector3d& point) {
+/// along z misses the obstacle.
+std::optional<Approach> approachAlongZ(const Obstacle& obstacle, const Vector3d& point) {
   Vector3d offset = point - obstacle.point, z(0, 0, 1);
   if (obstacle.kind == Obstacle::Kind::plane)
     return Approach{Vector3d(-std::copysign(1, obstacle.normal[2]), 0, 0),
@@ -52,10 +51,8 @@ std::optional<Approach> approachAlongZ(const ContactTerms& contact, const Obstac
   const double half = middle * middle - (offset.squaredNorm() - obstacle.radius * obstacle.radius) / zz;
   if (half <= 0)
     return std::nullopt;
-  if (middle == 0)
-    throw refusal(contact, "the obstacle lies as far above as below the membrane at " + text(point) +
-                               "; move the obstacle to one side");
-  return Approach{Vector3d(std::copysign(1, middle), 0, 0), std::abs(middle) - std::sqrt(half)};
+  return Approach{Vector3d(middle == 0 ? 0 : std::copysign(1, middle), 0, 0),
+                  std::abs(middle) - std::sqrt(half)};
 }
 
 void addRow(const Vector3d& direction, double gap, int components, ContactLayout& layout) {
@@ -87,7 +84,7 @@ bool isSpringless(const ContactTerms& contact, const RowAreas& areas, const Surf
 ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& first, const Obstacle& obstacle) {
   const bool isDeflection = contact.components == 1;
   const auto approach = [&](std::size_t i) {
-    return isDeflection ? approachAlongZ(contact, obstacle, first.points[i])
+    return isDeflection ? approachAlongZ(obstacle, first.points[i])
                         : approachTo(obstacle, first.points[i], contact.dimension);
   };
   ContactLayout layout;
@@ -102,6 +99,10 @@ ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& firs
     if (!found || found->gap > contact.distance)
       continue;
     isAnyNear = true;
+    const double before = layout.directions.empty() ? found->direction[0] : layout.directions[0];
+    if (isDeflection && found->direction[0] * before <= 0)
+      throw refusal(contact, "the middle of the obstacle does not lie on one side of the membrane (at " +
+                                 text(first.points[i]) + "); move the obstacle");
     if (found->direction.norm() < 0.5) // there is no nearest point
       throw refusal(contact, "the node at " + text(first.points[i]) +
                                  " lies in the centre of the obstacle; move the obstacle");

@@ -131,11 +131,12 @@ void readEdges(const ListReader& entry, SurfaceContact& pair) {
 /// Where all others do.
 void readSurfaces(const ListReader& entry, const std::vector<Body>& bodies,
                   const std::vector<NamedObstacle>& obstacles, SurfaceContact& pair) {
+  const bool coversBody = pair.second < 0 && bodies[pair.first].physics == fem::Physics::membrane;
+  if (coversBody)
+    entry.refuseGiven({"First Edge", "First Surface"}, "an obstacle may stop a membrane anywhere; remove it");
   entry.refuseGiven({"First Edge", "Second Edge"},
                     "only membranes on rectangles meet along edges; name surfaces");
-  if (pair.second < 0 && bodies[pair.first].physics == fem::Physics::membrane)
-    entry.refuseGiven({"First Surface"}, "an obstacle may stop a membrane anywhere; remove it");
-  else
+  if (!coversBody)
     entry.require("First Surface");
   pair.firstSurface = entry.word("First Surface");
   if (pair.second < 0) {

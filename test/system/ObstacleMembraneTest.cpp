@@ -2,6 +2,8 @@
 
 #include "support/WholeRun.hpp"
 
+#include "epafi/base/Errors.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -114,6 +116,15 @@ TEST(ObstacleMembraneTest, ABallStopsTheNodesOverItAlongZ) {
     EXPECT_EQ(layout.directions[row], -1);
   }
   EXPECT_GT(run.result.contacts.at(0).resultant[2], 0.01);
+}
+
+// A ball whose middle is in the membrane's plane, and a skew roller that goes through it.
+TEST(ObstacleMembraneTest, WhatIsOnBothSidesIsRefused) {
+  const double s = std::sqrt(0.5);
+  for (const scene::Obstacle& obstacle :
+       {scene::Obstacle{scene::Obstacle::Kind::sphere, {0.5, 0.1, 0}, {0, 0, 1}, 0.05},
+        scene::Obstacle{scene::Obstacle::Kind::cylinder, {0.5, 0.1, 0.01}, {s, 0, s}, 0.05}})
+    EXPECT_THROW(test::solve(test::cutByMetis(strip(16, 1, -4, obstacle), 2), 1e-12), InputError);
 }
 
 } // namespace
