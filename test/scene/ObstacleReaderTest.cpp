@@ -128,7 +128,8 @@ TEST(ObstacleReaderTest, MembranesMeetWhatLiesAlongZ) {
   };
   says([](ParameterList&, ParameterList& p) { p.set("First Surface", "bottom"); },
        {"\"First Surface\"", "anywhere"});
-  says([](ParameterList&, ParameterList& p) { p.set("First Edge", "bottom"); }, {"\"First Edge\"", "anywhere"});
+  says([](ParameterList&, ParameterList& p) { p.set("First Edge", "bottom"); },
+       {"\"First Edge\"", "anywhere"});
   says([](ParameterList&, ParameterList& p) { p.set("Friction", 0.3); }, {"\"Friction\"", "membranes"});
   says(
       [](ParameterList& o, ParameterList&) {
