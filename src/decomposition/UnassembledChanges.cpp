@@ -1,5 +1,6 @@
 // What may change of an UnassembledProblem.
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/UnassembledProblem.hpp"
@@ -46,14 +47,16 @@ void UnassembledProblem::setContact(const ConstraintMatrix& contact) {
 
 void UnassembledProblem::setCompliance(const RCP<const Vector>& compliance) {
   requireComplete();
-  if (!compliance.is_null()) {
+  collectively(*problem_.comm, [&] {
+    if (compliance.is_null())
+      return;
     if (!compliance->getMap()->locallySameAs(*problem_.multiplierMap))
       throw InputError("the compliance must lie on the map of the multipliers.");
     const auto values = compliance->getData();
     if (!std::all_of(values.begin(), values.end(),
                      [](double value) { return value >= 0 && std::isfinite(value); }))
       throw InputError("the compliance of a row must be a finite number of at least 0.");
-  }
+  });
   problem_.compliance = compliance;
 }
 

@@ -88,9 +88,9 @@ public:
   void setFriction(const FrictionRows& friction);
 
   /// Takes C, shared: by what rows of contact and friction give way under a force of 1; a penalty that is
-  /// none in K. Where rows are made anew it is gone. Not collective. Precondition: complete.
-  /// \param compliance  on problem().multiplierMap, 0 for other rows; or null
-  /// \throws InputError for another map, and for entries that are negative or not finite
+  /// none in K. Where rows are made anew it is gone. Collective. Precondition: complete.
+  /// \param compliance  on problem().multiplierMap, 0 for other rows; or null, on all ranks
+  /// \throws InputError, the same on all ranks, for another map, entries that are negative or not finite
   void setCompliance(const RCP<const Vector>& compliance);
 
   /// Takes B_T and c of tied joints, B_T u = c, both shared; rows as those of contact. Collective after
