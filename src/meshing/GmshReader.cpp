@@ -51,8 +51,8 @@ void checkFile(const std::string& file) {
   if (isSplit(file))
     throw InputError(
         "The mesh files " + inQuotes(file) +
-        " are read by parts, but here one mesh is needed that a rank reads whole, as where it is refined "
-        "or a point in it is looked for; name one file");
+        " are read by parts, but here one mesh is needed that a rank reads whole, as where it is refined, "
+        "a point in it is looked for, or a membrane meets an obstacle; name one file");
   if (!fs::is_regular_file(path))
     throw InputError("There is no mesh file " + inQuotes(file) + "; check its name and the folder");
   std::ifstream stream(path, std::ios::binary);

@@ -102,8 +102,9 @@ class Assemblies(unittest.TestCase):
 
     def test_a_pin_with_clearance_carries_its_force(self):
         found = self.contact("pin_in_lug", PIN, "lug - pin", 2)
-        for value, expected in zip(found["Resultant"], (0, 0, -10000)):
-            self.assertAlmostEqual(abs(value), abs(expected), delta=5)  # the guide takes what is not along z
+        x, y, z = found["Resultant"]
+        self.assertAlmostEqual(abs(z), 10000, delta=0.5)  # facets lack some of the ends
+        self.assertLess(max(abs(x), abs(y)), 5)  # the guide takes it
         self.assertLess(found["Force Imbalance"][0], 1e-8 * 10000)
 
     def test_a_shrink_fit_has_lames_pressure(self):
