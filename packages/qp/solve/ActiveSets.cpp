@@ -36,7 +36,8 @@ ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& program, const Ve
           Teuchos::rcp_dynamic_cast<const ReplicatedEquality>(program.equality, true), interruption_,
           counts_),
       start_(start, Teuchos::Copy), best_(start, Teuchos::Copy), inside_(objective_.map()),
-      next_(objective_.map()), work_(objective_.map()), reduction_(objective_.map()->getComm(), 4),
+      next_(objective_.map()), work_(objective_.map()), overlap_(objective_.map()), length_(objective_.map()),
+      fixed_(objective_.map()), reduction_(objective_.map()->getComm(), 4),
       faceReduction_(parameters.faceReduction) {
   objective_.setLinearTerm(*program.linearTerm, 0);
   if (tolerances.error != nullptr)
@@ -55,6 +56,8 @@ ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& program, const Ve
     on_.face.tangents.clear();
   if (!program.setAt || start_.normInf() == 0)
     on_.face.followers.clear();
+  if (program_.setAt)
+    set_->fixedIndicator(fixed_);
   isAtOrigin_ = on_.x.normInf() == 0;
 }
 

@@ -1,5 +1,6 @@
 #include "epafi/qp/solve/FaceIteration.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/qp/operators/LocalData.hpp"
 
 #include <Tpetra_Map.hpp>
@@ -32,13 +33,7 @@ FaceIteration::FaceIteration(ScaledObjective& objective, RCP<const Operator> m,
 
 void FaceIteration::enter(bool isOrigin) {
   equality_.setFace(face);
-  equality_.residual(x, rows_);
-  equality_.multiplierOf(rows_, multiplier_);
-  p_.putScalar(0.0);
-  equality_.addTransposed(multiplier_, -1.0, p_);
-  addScaled(1.0, p_, x);
-  equality_.residual(x, missing_);
-  residual_ = equality_.normOf(missing_);
+  moveOntoEquality();
   if (isOrigin && residual_ == 0) { // and so it has stayed: no product
     image_.putScalar(0.0);
     f_ = objective_.constant();
@@ -73,6 +68,28 @@ void FaceIteration::enter(bool isOrigin) {
   }
 }
 
+/// What follows does so here too, but for what little is left. Collective.
+void FaceIteration::moveOntoEquality() {
+  constexpr int mostPasses = 3;
+  constexpr double little = 1e-4;
+  const auto pass = [&](bool withFollowers) {
+    equality_.multiplierOf(missing_, multiplier_);
+    p_.putScalar(0.0);
+    equality_.addTransposed(multiplier_, -1.0, p_);
+    if (withFollowers)
+      face.addFollowers(p_);
+    addScaled(1.0, p_, x);
+    equality_.residual(x, missing_);
+    residual_ = equality_.normOf(missing_);
+  };
+  equality_.residual(x, missing_);
+  const double most = little * equality_.normOf(missing_);
+  if (!rows_.empty() && sumOverRanks(*x.getMap()->getComm(), static_cast<double>(face.followers.size())) > 0)
+    for (int k = 0; k == 0 || (k < mostPasses && residual_ > most); ++k)
+      pass(true);
+  pass(false);
+}
+
 const Vector& FaceIteration::plainGradient() {
   if (face.tangents.empty())
     return g_;
@@ -96,8 +113,8 @@ void FaceIteration::unbalanced(Vector& change) {
 /// z = P_F M Zg, gᵀz, zᵀAp, ‖Zg‖, in one message. As Zg is in Ker B, gᵀz is that of M Zg.
 void FaceIteration::precondition() {
   face.restrict(g_, r_);
-  applyPreconditioner();
   reduction_.clear();
+  applyPreconditioner();
   const auto sums = reduction_.sums();
   addDot(r_, z_, sums[first]);
   addDot(z_, image_, sums[second]);
@@ -112,7 +129,9 @@ void FaceIteration::precondition() {
   energy_ = reduction_.sum(first);
   timesImage_ = reduction_.sum(second);
   gradient_ = std::sqrt(reduction_.sum(third));
-  if (reduction_.sum(third) > 0)
+  if (reduction_.sum(alongTangents) > 0)
+    inverseStiffness_ = reduction_.sum(tangentEnergy) / reduction_.sum(alongTangents);
+  else if (reduction_.sum(third) > 0)
     inverseStiffness_ = energy_ / reduction_.sum(third);
   wish_.reset();
   if (reduction_.sum(interrupted) > 0)
@@ -136,6 +155,11 @@ void FaceIteration::applyPreconditioner() {
     face.weigh(stiffness_, r_);
   m_->apply(r_, z_);
   ++counts_.preconditionerApplications;
+  const auto r = localData(r_), z = localData(z_);
+  for (const CircleTangent& tangent : face.tangents) {
+    reduction_.sums()[tangentEnergy].add(tangent.component(r) * tangent.component(z));
+    reduction_.sums()[alongTangents].add(tangent.component(r) * tangent.component(r));
+  }
   if (isWeighed) {
     face.weigh(stiffness_, z_);
     face.restrict(g_, r_);

@@ -63,9 +63,22 @@ public:
 private:
   /// The sums of a step, before those of B's rows: three products, what follows and is bent, and who wants
   /// what.
-  enum Sums : int { first, second, third, following, bent, timeIsUp, interrupted, look, numOwnSums };
+  enum Sums : int {
+    first,
+    second,
+    third,
+    tangentEnergy,
+    alongTangents,
+    following,
+    bent,
+    timeIsUp,
+    interrupted,
+    look,
+    numOwnSums
+  };
   std::optional<Status> conjugateStep();
   std::optional<Status> followingStep();
+  void moveOntoEquality();
   void makeFollowingDirection();
   void precondition();
   void applyPreconditioner();
@@ -84,11 +97,12 @@ private:
   std::vector<double> rows_, multiplier_; ///< work, k
   std::vector<double> missing_;           ///< Bx − c where the face was entered, k
   double f_ = 0, gradient_ = 0, energy_ = 0, residual_ = 0;
-  double inverseStiffness_ = 0; ///< rᵀMr/rᵀr of the last r, not scaled; 0 before the first
-  double stiffness_ = 0;        ///< about that of A along tangents, scaled; 0 where it is not known
-  double timesImage_ = 0;       ///< zᵀAp
-  double slope_ = 0;            ///< gᵀp
-  double curvature_ = 0;        ///< pᵀAp of the last step; 0: there was none on this face
+  /// rᵀMr/rᵀr of the last r, along tangents where there are some, not scaled; 0 before the first.
+  double inverseStiffness_ = 0;
+  double stiffness_ = 0;  ///< about that of A along tangents, scaled; 0 where it is not known
+  double timesImage_ = 0; ///< zᵀAp
+  double slope_ = 0;      ///< gᵀp
+  double curvature_ = 0;  ///< pᵀAp of the last step; 0: there was none on this face
   /// Of the face so far, where something follows: p, Ap − Bᵀη, and ‖ZAp‖².
   struct Kept {
     Vector direction, image;
