@@ -29,6 +29,23 @@ class Costs(unittest.TestCase):
                 sizes.append(resident())
         self.assertLess(sizes[-1] - sizes[1], 0.02 * sizes[1], sizes)
 
+    def test_memory_stays_flat_over_a_thousand_problems_and_programs(self):
+        places, _, unknowns, matrices = solid([12, 12], [0.0, 0.0], [1.0, 1.0])
+        bottom = numpy.flatnonzero(places[:, 1] == 0)
+        loads = numpy.outer(on_side(places, [12, 12], 1.0)[1], [0.1, -1.0]).ravel()
+        rows, rhs = numpy.zeros((13, len(loads))), numpy.ones(13)
+        rows[range(13), 2 * bottom + 1] = -1
+        sizes = []
+        for k in range(1000):
+            problem = epafi.Problem(2)
+            problem.add_elements(unknowns, matrices, places, parts=2)
+            problem.set_contact(rows, 0, friction=0.5)
+            problem.solve(loads), problem.solve(0.5 * loads)
+            epafi.solve_qp(lambda x: 2 * x, rhs, upper=0.3)
+            if k % 100 == 99:
+                sizes.append(resident())
+        self.assertLess(sizes[-1] - sizes[1], 0.02 * sizes[1], sizes)
+
     def test_python_takes_a_twentieth_of_the_time_at_most(self):
         elements = {"Bodies/block/Elements": [96, 96]}
         shares = []

@@ -261,7 +261,7 @@ def by_name(problem: ContactProblem, algorithm: str, expansion: str = "auto", is
     if problem.is_bounded:
         if algorithm == "fixed point":
             raise Unfit("no friction")
-        return program(problem, "MPRGP" if algorithm == "auto" else algorithm, steps, is_preconditioned)
+        return program(problem, algorithm, steps, is_preconditioned)
     if algorithm == ("MPRGP" if has_coulomb else "fixed point"):
         raise Unfit("Coulomb" if has_coulomb else "no friction")
     return fetidp(problem, algorithm, steps if is_preconditioned else {**steps, "Preconditioner": {"Type": "none"}})
