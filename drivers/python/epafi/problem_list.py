@@ -76,7 +76,7 @@ HALF_CLOSED = {
 def _on_floor(force: list, **contact: Any) -> dict:
     """A square block, or a cube, on a rigid floor, whose top is pressed; nothing else holds it."""
     d = len(force)
-    return {"Bodies": {"block": _block(d * [0, 1], [0, 0, 2 * [16], 3 * [8]][d], 1.0, 4 - d,
+    return {"Bodies": {"block": _block(d * [0, 1], d * [16 if d == 2 else 8], 1.0, 4 - d,
                                        Loads={"press": {"Kind": "traction", "Surface": "top", "Force": force}})},
             "Obstacles": {"floor": {"Kind": "plane", "Point": d * [0], "Normal": [*(d - 1) * [0], 1]}},
             "Contact": {"foot": {"First Body": "block", "First Surface": "bottom", "Obstacle": "floor", **contact}}}
