@@ -95,9 +95,12 @@ class Problem:
         """Of all bodies so far."""
         return self.nodes * self.components
 
-    def _places(self, coordinates: Any, held: Mapping[int, float] | None) -> tuple:
+    def _require_unsolved(self) -> None:
         if self._problem is not None:
             raise _epafi.InputError("the problem is solved already: bodies and contact come before the first solve")
+
+    def _places(self, coordinates: Any, held: Mapping[int, float] | None) -> tuple:
+        self._require_unsolved()
         places = numpy.asarray(coordinates, dtype=float)
         if places.ndim != 2 or places.shape[1] != self.dimension:
             raise _epafi.InputError(f"coordinates have shape {places.shape}, but must have {self.dimension} columns")
@@ -192,6 +195,7 @@ class Problem:
         slips     s, of each row of T or one for all: what has slipped before
         nodes     with `tangents`: rows of B that have friction, if not all; friction and bound are theirs then
         """
+        self._require_unsolved()
         matrix, gaps = rows_of(rows), numpy.atleast_1d(numpy.asarray(gaps, dtype=float))
         count = len(matrix[0]) - 1
         self._contact, self._friction = (matrix, numpy.broadcast_to(gaps, count) if len(gaps) == 1 else gaps, self.unknowns), None
