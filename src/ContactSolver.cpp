@@ -23,7 +23,7 @@
 namespace epafi {
 namespace {
 
-const std::vector<std::string> algorithms = {"auto", "MPRGP", "active set"};
+const std::vector<std::string> algorithms = {"auto", "MPRGP", "active set", "fixed point"};
 
 double longest(const Comm& comm, double since) {
   return maxOverRanks(comm, Teuchos::Time::wallTime() - since);
@@ -52,8 +52,10 @@ Teuchos::ParameterList ContactSolver::validParameters() {
             "active sets go on after 300 products. 'active "
             "set': primal-dual active sets with equilibrium held exactly on every face, then MPRGP or SMALBE "
             "from their best "
-            "point, should the faces not settle. 'auto': active set where bodies float and there is a "
-            "preconditioner, and where the driver starts from a coarser mesh (Accuracy/Coarser Start), else "
+            "point, should the faces not settle. 'fixed point': with Coulomb's friction problems with given "
+            "bounds, each by active sets, until the bounds settle; else active sets. 'auto': active set "
+            "where bodies float and there is a preconditioner, and where the driver starts from a coarser "
+            "mesh (Accuracy/Coarser Start), else "
             "MPRGP. Without contact there is nothing to choose.",
             algorithms);
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());

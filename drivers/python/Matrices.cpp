@@ -10,6 +10,7 @@
 #include "epafi/scene/ParameterFile.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
+#include <Teuchos_Time.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -28,11 +29,6 @@ Eigen::MatrixXd tableOf(const Row<double>& table) {
   return Eigen::Map<const Rows>(table.data(), table.shape(0), table.shape(1));
 }
 
-template <class T>
-std::span<const T> spanOf(const Row<T>& row) {
-  return {row.data(), static_cast<std::size_t>(row.size())};
-}
-
 /// A contact problem of an application's matrices, all of it on this rank. Unknowns are numbered through all
 /// bodies.
 class Problem {
@@ -49,7 +45,8 @@ public:
     matrix.body = body;
     matrix.unknowns.assign(unknowns.data(), unknowns.data() + unknowns.size());
     const auto& [starts, columns, values] = stiffness;
-    matrix.stiffness = decomposition::fromCompressedRows(spanOf(starts), spanOf(columns), spanOf(values));
+    matrix.stiffness = Eigen::Map<const decomposition::SparseMatrix>( // symmetric: its rows are its columns
+        unknowns.size(), unknowns.size(), columns.size(), starts.data(), columns.data(), values.data());
     matrix.load = Eigen::VectorXd::Zero(unknowns.size());
     matrix.coordinates.resize(unknowns.size(), table.cols());
     for (py::ssize_t i = 0; i < unknowns.size(); ++i)
@@ -78,28 +75,40 @@ public:
       take(std::move(matrix), held);
   }
 
-  /// \param friction  a coefficient for each row; empty: without friction
-  void setContact(const CompressedRows& rows, const Row<double>& gaps, int numUnknowns,
-                  const std::vector<double>& friction) {
-    decomposition::ConstraintMatrix contact{matrixOf(rows, numUnknowns, comm_), Teuchos::null};
-    gaps_ = contact.rows->getRowMap();
-    contact.gap = vectorOf(gaps, gaps_, "the gaps");
-    problem_.setContact(contact);
-    friction_ = friction;
-    if (!friction.empty())
-      problem_.setFriction(decomposition::frictionAlong(contact, components_));
+  void setContact(const CompressedRows& rows, const Row<double>& gaps, int numUnknowns) {
+    contact_ = {matrixOf(rows, numUnknowns, comm_), Teuchos::null};
+    contact_.gap = vectorOf(gaps, contact_.rows->getRowMap(), "the gaps");
+    problem_.setContact(contact_);
+  }
+
+  /// \param tangents      T and s; nothing: along the tangents of each row of contact
+  /// \param nodes         of each node with friction its row of contact; without tangents all rows
+  /// \param coefficients, bounds  of each node
+  void setFriction(const std::optional<std::pair<CompressedRows, Row<double>>>& tangents,
+                   const std::vector<GlobalOrdinal>& nodes, const std::vector<double>& coefficients,
+                   const std::vector<double>& bounds, int numUnknowns) {
+    coefficients_ = coefficients;
+    bounds_ = bounds;
+    if (!tangents) {
+      problem_.setFriction(decomposition::frictionAlong(contact_, components_));
+      return;
+    }
+    const RCP<const CrsMatrix> rows = matrixOf(tangents->first, numUnknowns, comm_);
+    problem_.setFriction({{rows, vectorOf(tangents->second, rows->getRowMap(), "the slips")}, nodes});
   }
 
   void complete(const std::string& parameters) {
+    const double began = Teuchos::Time::wallTime();
     problem_.complete();
+    seconds_ = Teuchos::Time::wallTime() - began;
     solver_ = std::make_unique<ContactSolver>(scene::parseParameters(parameters, "parameters"));
-    std::map<GlobalOrdinal, std::size_t> first; // the subdomain that has the load of an unknown
-    for (std::size_t s = 0; s < unknowns_.size(); ++s)
-      for (const GlobalOrdinal unknown : unknowns_[s])
-        first.emplace(unknown, s);
-    for (std::size_t s = 0; s < unknowns_.size(); ++s)
-      for (const GlobalOrdinal unknown : unknowns_[s])
-        hasLoad_.push_back(first[unknown] == s);
+    std::vector<bool> isTaken; // the first subdomain has the load of an unknown
+    for (const std::vector<GlobalOrdinal>& own : unknowns_)
+      for (const GlobalOrdinal unknown : own) {
+        isTaken.resize(std::max<std::size_t>(isTaken.size(), unknown + 1));
+        hasLoad_.push_back(!isTaken[unknown]);
+        isTaken[unknown] = true;
+      }
   }
 
   /// \param loads  of all unknowns  \param gaps  of all rows of contact; nothing: as last
@@ -115,17 +124,19 @@ private:
     problem_.add(std::move(matrix));
   }
   void setLoads(const Row<double>& loads);
-  [[nodiscard]] py::dict resultOf(const fetidp::ContactSolution& solution, py::ssize_t numUnknowns) const;
+  [[nodiscard]] py::dict resultOf(const fetidp::ContactSolution& solution, const Vector& values,
+                                  py::ssize_t numUnknowns) const;
 
   int components_;
   RCP<const Comm> comm_;
   decomposition::UnassembledProblem problem_;
   std::vector<std::vector<GlobalOrdinal>> unknowns_; ///< of each subdomain
   std::vector<bool> hasLoad_;                        ///< of their unknowns, one subdomain after the other
-  RCP<const Map> gaps_;                              ///< of the rows of contact; null without contact
-  std::vector<double> friction_;
+  decomposition::ConstraintMatrix contact_;          ///< null without contact
+  std::vector<double> coefficients_, bounds_;        ///< of nodes with friction
   std::unique_ptr<ContactSolver> solver_;
-  RCP<Vector> last_; ///< multipliers of the last solution
+  RCP<Vector> last_;   ///< multipliers of the last solution
+  double seconds_ = 0; ///< of the library in the last call
 };
 
 void Problem::setLoads(const Row<double>& loads) {
@@ -139,23 +150,29 @@ void Problem::setLoads(const Row<double>& loads) {
   }
 }
 
-py::dict Problem::resultOf(const fetidp::ContactSolution& solution, py::ssize_t numUnknowns) const {
-  std::vector<double> u(numUnknowns, 0.0), forces;
-  const RCP<Vector> values = problem_.unknowns(solution.displacement);
-  const auto data = values->getData();
+/// \param values  u
+py::dict Problem::resultOf(const fetidp::ContactSolution& solution, const Vector& values,
+                           py::ssize_t numUnknowns) const {
+  std::vector<double> u(numUnknowns, 0.0), forces, tangential;
+  const auto data = values.getData();
   for (Teuchos::Ordinal i = 0; i < data.size(); ++i)
-    u[values->getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))] = data[i];
-  if (!gaps_.is_null()) {
+    u[values.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))] = data[i];
+  if (!contact_.rows.is_null()) {
     const RCP<Vector> force = problem_.contactForces(*solution.multiplier);
     const auto own = force->getData();
     forces.assign(own.begin(), own.end());
   }
+  const auto multipliers = solution.multiplier->getData();
+  for (const decomposition::FrictionNode& node : problem_.problem().frictionNodes)
+    for (int k = 0; k + 1 < components_; ++k)
+      tangential.push_back(multipliers[node.firstTangent + k]);
   const SolveFacts facts = solver_->facts();
   using namespace py::literals;
   return py::dict("u"_a = arrayOf(std::move(u)), "forces"_a = arrayOf(std::move(forces)),
-                  "energy"_a = solution.energy, "status"_a = toString(facts.status),
-                  "reason"_a = facts.statusReason, "products"_a = facts.counts.hessianMultiplications,
-                  "setup_seconds"_a = facts.times.setup, "subdomains"_a = facts.numSubdomains,
+                  "tangential"_a = arrayOf(std::move(tangential)), "energy"_a = solution.energy,
+                  "status"_a = toString(facts.status), "reason"_a = facts.statusReason,
+                  "products"_a = facts.counts.hessianMultiplications, "setup_seconds"_a = facts.times.setup,
+                  "seconds"_a = seconds_, "subdomains"_a = facts.numSubdomains,
                   "feasibility"_a = solution.feasibility, "complementarity"_a = solution.complementarity,
                   "projected_gradient"_a = solution.relativeProjectedGradient);
 }
@@ -164,22 +181,28 @@ py::dict Problem::solve(const Row<double>& loads, const std::optional<Row<double
                         const py::object& progress) {
   Watch watch(comm_, progress);
   fetidp::ContactSolution solution;
+  RCP<Vector> values;
   {
     const py::gil_scoped_release noLock;
+    const double began = Teuchos::Time::wallTime();
     setLoads(loads);
     if (gaps)
-      problem_.setGap(*vectorOf(*gaps, gaps_, "the gaps"));
+      problem_.setGap(*vectorOf(*gaps, contact_.rows->getRowMap(), "the gaps"));
     decomposition::ProblemData data = problem_.data();
-    if (!friction_.empty())
-      data.setFrictionCoefficients(problem_.problem(), friction_);
+    if (!coefficients_.empty()) {
+      data.setFrictionCoefficients(problem_.problem(), coefficients_);
+      data.setFrictionBounds(problem_.problem(), bounds_);
+    }
     if (last_.is_null())
       solver_->setup(problem_.problem(), data);
     solution = solver_->solve(data, last_.get(), &watch);
+    values = problem_.unknowns(solution.displacement);
+    seconds_ = (last_.is_null() ? seconds_ : 0) + Teuchos::Time::wallTime() - began;
   }
   if (solver_->report().status == qp::Status::interrupted)
     watch.raise();
   last_ = solution.multiplier;
-  return resultOf(solution, loads.size());
+  return resultOf(solution, *values, loads.size());
 }
 
 /// Cuts elements into parts that hang together. \param nodes  m × k
@@ -216,6 +239,7 @@ void defineMatrices(py::module_& module) {
       .def("add", &Problem::add)
       .def("add_elements", &Problem::addElements)
       .def("set_contact", &Problem::setContact)
+      .def("set_friction", &Problem::setFriction)
       .def("complete", &Problem::complete)
       .def("solve", &Problem::solve);
   module.def("parts_of", &partsOf);

@@ -55,6 +55,7 @@ PYBIND11_MODULE(_epafi, module) {
   defineScenes(module);
   definePrograms(module);
   defineMatrices(module);
+  defineSurfaces(module);
   defineSystems(module);
 }
 

@@ -99,9 +99,11 @@ struct Handed {
     data.setFrictionCoefficients(problem->problem(), std::vector<double>(bounds.size(), coefficient));
   }
 
-  void solve(double tolerance = 1e-10) {
-    solver = std::make_unique<ContactSolver>(
-        Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance));
+  void solve(double tolerance = 1e-10, const std::string& algorithm = "auto") {
+    solver = std::make_unique<ContactSolver>(Teuchos::ParameterList()
+                                                 .set("Tolerance", tolerance)
+                                                 .set("Equilibrium Tolerance", tolerance)
+                                                 .set("Algorithm", algorithm));
     solver->setup(problem->problem(), data);
     solution = solver->solve(data);
   }
@@ -159,6 +161,25 @@ TEST(FrictionTest, ABlockSlipsAsFarAsAnIndependentSolverSays) {
       EXPECT_GT(handed.solution.dissipation, 0);
       EXPECT_LE(handed.solver->report().counts.hessianMultiplications, 120);
     }
+}
+
+TEST(FrictionTest, AFixedPointOfGivenBoundsEndsWhereAnIndependentSolverDoes) {
+  for (const Reference& reference : references) {
+    SCOPED_TRACE(std::to_string(reference.dimension) + "-D");
+    Handed handed(blockOnFloor(reference.dimension, reference.n, reference.shear,
+                               test::cutInGrid({2, 2, reference.dimension == 3 ? 2 : 1})),
+                  reference.n, reference.traction, reference.coefficient);
+    handed.solve();
+    const int products = handed.solver->report().counts.hessianMultiplications;
+
+    handed.solve(1e-10, "fixed point");
+
+    EXPECT_EQ(handed.solver->report().status, qp::Status::converged) << handed.solver->report().reason;
+    EXPECT_NEAR(handed.strainEnergy() / reference.strainEnergy, 1, 1e-8);
+    EXPECT_NEAR(handed.loadWork() / reference.loadWork, 1, 1e-8);
+    const int more = handed.solver->report().counts.hessianMultiplications - products;
+    EXPECT_TRUE(reference.coefficient > 0 ? more > 0 : more == 0) << more;
+  }
 }
 
 TEST(FrictionTest, WhereTheBoundIsHighTheFloorHoldsLikeATie) {

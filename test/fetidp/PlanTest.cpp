@@ -67,6 +67,14 @@ TEST(PlanTest, ActiveSetsSolveForFloatingBodiesAlone) {
   EXPECT_EQ(plan(held(), with(Method::activeSets)).algorithm, Algorithm::activeSets);
 }
 
+TEST(PlanTest, AFixedPointIsForFrictionAlone) {
+  PlanFacts facts = floating();
+  EXPECT_EQ(plan(facts, with(Method::fixedPoint)).algorithm, Algorithm::activeSets);
+  facts.numFriction = 1;
+  EXPECT_EQ(plan(facts, with(Method::fixedPoint)).algorithm, Algorithm::fixedPoint);
+  EXPECT_EQ(plan(facts, {}).algorithm, Algorithm::activeSets);
+}
+
 TEST(PlanTest, LargeElasticBodiesBeginOnACoarserMesh) {
   EXPECT_TRUE(plan(large(false), {}).beginsOnCoarserMesh);
   EXPECT_TRUE(plan(large(false), with(Method::activeSets)).beginsOnCoarserMesh);

@@ -36,6 +36,38 @@ def blocks(columns, rows):
     return coordinates, unknowns, numpy.broadcast_to(matrix, (len(nodes), 8, 8))
 
 
+def solid(count, low, high):
+    """Bricks or squares of order 1, elastic, E = 1, nu = 0: coordinates, nodes of cells, unknowns and matrices of these."""
+    d, step = len(count), (numpy.array(high) - low) / count
+    axes = [low[k] + step[k] * numpy.arange(count[k] + 1) for k in range(d)]
+    places = numpy.column_stack([axis.ravel("F") for axis in numpy.meshgrid(*axes, indexing="ij")])
+    strides = numpy.cumprod([1, *(n + 1 for n in count[:-1])])
+    numbers = numpy.meshgrid(*map(numpy.arange, count), indexing="ij")
+    first = sum(axis.ravel("F") * stride for axis, stride in zip(numbers, strides))
+    corners = numpy.array([[(a >> k) & 1 for k in range(d)] for a in range(2 ** d)])
+    cells, matrix = first[:, None] + corners @ strides, numpy.zeros(2 * (2 ** d, d))
+    for point in numpy.ndindex(*d * [2]):
+        xi = 0.5 + (numpy.array(point) - 0.5) / 3 ** 0.5
+        parts = numpy.where(corners, xi, 1 - xi)
+        gradient = numpy.column_stack([(2 * corners[:, k] - 1) * numpy.delete(parts, k, axis=1).prod(axis=1) / step[k]
+                                       for k in range(d)])
+        laplacian = numpy.einsum("ak,bk,ij->aibj", gradient, gradient, numpy.eye(d))
+        matrix += (laplacian + numpy.einsum("aj,bi->aibj", gradient, gradient)) / 2 * step.prod() / 2 ** d
+    unknowns = (d * cells[:, :, None] + numpy.arange(d)).reshape(len(cells), -1)
+    return places, cells, unknowns, numpy.broadcast_to(matrix.reshape(2 * [d * 2 ** d]), (len(cells), *2 * [d * 2 ** d]))
+
+
+def on_side(places, count, level):
+    """Facets of such a body on a plane of the last axis: nodes in turn, and of each node what an even load of 1 gives it."""
+    d, own = len(count), numpy.flatnonzero(numpy.isclose(places[:, -1], level))
+    grid = own.reshape([n + 1 for n in count[:-1]], order="F")
+    facets = (numpy.column_stack([grid[:-1], grid[1:]]) if d == 2 else numpy.column_stack(
+        [grid[:-1, :-1].ravel(), grid[1:, :-1].ravel(), grid[1:, 1:].ravel(), grid[:-1, 1:].ravel()]))
+    share = numpy.zeros(len(places))
+    numpy.add.at(share, facets, 1 / facets.size)
+    return facets, share
+
+
 def summed(unknowns, matrices, size):
     row = numpy.repeat(unknowns, unknowns.shape[1], axis=1).ravel()
     column = numpy.tile(unknowns, unknowns.shape[1]).ravel()
@@ -118,16 +150,84 @@ class Matrices(unittest.TestCase):
         with self.assertRaisesRegex(epafi.SolvabilityError, "block"):
             slides.solve(loads)
 
+    def test_bodies_meshed_apart_rub_as_those_of_a_scene(self):
+        """In the plane and in space, Coulomb's law and Tresca's; the scene makes its own mortars."""
+        for d, counts, push in ((2, ([6, 4], [4, 3]), [0.02]), (3, ([3, 3, 3], [2, 2, 2]), [0.02, 0.01])):
+            for law in ({"friction": 0.3}, {"bound": 0.0235}):
+                with self.subTest(dimension=d, **law):
+                    problem, loads, sides, bodies = epafi.Problem(d), [], [], {}
+                    for number, count in enumerate(counts):
+                        low, high = numpy.zeros(d), numpy.ones(d)
+                        low[-1], high[-1] = number, number + 1.0
+                        places, cells, unknowns, matrices = solid(count, low, high)
+                        floor = numpy.flatnonzero(places[:, -1] == 0)
+                        held = None if number else {d * node + k: 0.0 for node in floor for k in range(d)}
+                        own = problem.add_elements(unknowns, matrices, places, held=held, parts=1 + number)
+                        sides.append((own, on_side(places, count, 1.0)[0][:, ::1 - 2 * number], cells))
+                        force = numpy.array([*push, -0.1]) * number
+                        loads.append(numpy.outer(on_side(places, count, 1.0 + number)[1], force).ravel())
+                        box = numpy.column_stack([low, high]).ravel().tolist()
+                        bodies[("lower", "upper")[number]] = {
+                            "Physics": ("plane strain", "elasticity 3-D")[d - 2], ("Rectangle", "Box")[d - 2]: box,
+                            "Elements": count, "Young's Modulus": 1.0, "Poisson's Ratio": 0.0, "Order": 1, **(
+                                {"Loads": {"top": {"Kind": "traction", "Surface": "top", "Force": force.tolist()}}} if number else
+                                {"Supports": {"floor": {"Surface": "bottom", **{axis: 0.0 for axis in "XYZ"[:d]}}}})}
+                    joint = problem.joint(*sides)
+                    self.assertAlmostEqual(joint.areas.sum(), 1)
+                    numpy.testing.assert_allclose(joint.directions - numpy.eye(d)[-1], 0, atol=1e-14)
+                    traction = {name: value * (joint.areas if name == "bound" else 1) for name, value in law.items()}
+                    problem.set_contact(joint.rows, joint.gaps, **traction)
+                    found = problem.solve(numpy.concatenate(loads), tolerance=1e-13, parameters={"Equilibrium Tolerance": 1e-13})
+                    self.assertAlmostEqual(found.forces.sum(), 0.1, delta=1e-10)
+                    self.assertEqual(found.tangential.shape, ((d - 1) * len(joint.gaps),))
+                    rubs = numpy.linalg.norm(found.tangential.reshape(-1, d - 1), axis=1)
+                    most = 0.3 * found.forces if "friction" in law else traction["bound"]
+                    self.assertLess((rubs - most).max(), 1e-10)
+                    self.assertGreater((rubs > most - 1e-10).sum(), 0)
+                    scene = epafi.solve({"Bodies": bodies, "Contact": {"joint": {
+                        "First Body": "lower", "First Surface": "top", "Second Body": "upper", "Second Surface": "bottom",
+                        **({"Friction": 0.3} if "friction" in law else {"Friction Bound": 0.0235})}},
+                        "Solver": {"Tolerance": 1e-13, "Equilibrium Tolerance": 1e-13}})
+                    self.assertAlmostEqual(found.energy / scene.energy, 1, delta=1e-12)
+
+    def test_own_tangents_and_slips_count(self):
+        """A block that is held against its pull by what it has slipped before: s moves it, bounds of 1 hold it."""
+        coordinates, unknowns, matrices = blocks(4, 4)
+        sole, loads = 2 * numpy.arange(5), numpy.zeros(50)
+        bottom, along = (scipy.sparse.csr_matrix((sign * numpy.ones(5), (numpy.arange(5), sole + k)), shape=(5, 50))
+                         for sign, k in ((-1, 1), (1, 0)))
+        loads[41::2] = -1.0
+        found = []
+        for slips in (0.0, 0.25):
+            problem = epafi.Problem(2)
+            problem.add_elements(unknowns, matrices, coordinates)
+            problem.set_contact(bottom, 0, bound=1.0, tangents=along[::-1], slips=slips, nodes=range(4, -1, -1))
+            found.append(problem.solve(loads, tolerance=1e-12))
+        numpy.testing.assert_allclose((found[1].u - found[0].u)[::2], 0.25, atol=1e-10)
+        for solution in found:
+            reactions = bottom.T @ solution.forces + along[::-1].T @ solution.tangential
+            self.assertLess(abs(summed(unknowns, matrices, 50) @ solution.u + reactions - loads).max(), 1e-12)
+
     def test_what_does_not_fit_is_refused_in_a_sentence(self):
         coordinates, nodes, matrices = membrane(2, 2)
         k = summed(nodes, matrices, 9)
         for wrong, sentence in (
                 (lambda p: p.add_body(k, coordinates[:, :1]), "coordinates have shape"),
                 (lambda p: p.add_body(k[:5, :5], coordinates), "has 5 rows, but the body 9"),
+                (lambda p: p.add_body(scipy.sparse.hstack([k, k]), coordinates), "an entry in column 17"),
                 (lambda p: p.add_elements(nodes + 1, matrices, coordinates), "numbered from 0 to 8"),
                 (lambda p: p.add_elements(nodes, matrices[:3], coordinates), "element matrices have shape"),
                 (lambda p: p.add_elements(nodes, matrices, coordinates, parts=[0, 1]), "2 numbers of parts"),
+                (lambda p: p.joint(*2 * [(p.add_body(k, coordinates), [[0, 2]], nodes)]), "facet 0 belongs to no cell"),
+                (lambda p: p.joint(*2 * [(p.add_body(k, coordinates), [[0, 1, 2]], nodes)]), "facets have 3 nodes"),
+                (lambda p: p.joint(*2 * [(p.add_body(k, coordinates), [[0, 9]], nodes)]), "numbered from 0 to 8"),
+                (lambda p: p.joint(*2 * [(range(3), [[0, 1]], nodes)]), "not the unknowns of a body"),
+                (lambda p: p.set_contact(numpy.eye(2, 9), 0, 0.3, tangents=numpy.eye(1, 9), nodes=[2]), "different rows of"),
                 (lambda p: (p.add_body(k, coordinates), p.solve([1.0])), "loads have shape"),
+                (lambda p: (p.add_body(k, coordinates, held={0: 0}), p.solve(numpy.ones(9)), p.set_contact(numpy.eye(9), 0)),
+                 "solved already"),
+                (lambda p: (p.add_body(k, coordinates, held={0: 0}), p.set_contact(numpy.eye(9), 0, bound=-1), p.solve(numpy.ones(9))),
+                 "friction"),
                 (lambda p: (p.add_body(k, coordinates, held={0: 0}), p.solve(numpy.ones(9), parameters={"Tolerence": 1})),
                  "Tolerence")):
             with self.subTest(sentence), self.assertRaisesRegex(epafi.InputError, sentence):

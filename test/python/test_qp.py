@@ -47,6 +47,16 @@ class Programs(unittest.TestCase):
         moved = epafi.solve_qp(numpy.eye(2), [3, 4], discs=([[0, 1]], [1], [[3, 2]]), tolerance=1e-10)
         numpy.testing.assert_allclose(moved.x, [3, 3], atol=1e-9)
 
+    def test_the_default_takes_active_sets_on_discs_and_mprgp_within_bounds(self):
+        a, b = string(40)
+        discs = numpy.arange(40).reshape(-1, 2), numpy.full(20, 0.1)
+        products = {(name, on_discs): epafi.solve_qp(a, 16 * b, tolerance=1e-8, parameters={"Algorithm": name}, **(
+            {"discs": discs} if on_discs else {"lower": -0.1})).products
+            for name in ("auto", "MPRGP", "active set") for on_discs in (False, True)}
+        self.assertEqual(products["auto", False], products["MPRGP", False])
+        self.assertEqual(products["auto", True], products["active set", True])
+        self.assertLess(products["active set", True], products["MPRGP", True])
+
     def test_equations_hold_and_have_multipliers(self):
         result = epafi.solve_qp(numpy.eye(3), [1, 2, 3], equalities=([[1, 1, 1]], [3]), tolerance=1e-10)
         numpy.testing.assert_allclose(result.x, [0, 1, 2], atol=1e-9)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """test_scenes.py EPAFI XML: scenes solved by `import epafi` beside the same by the program."""
 
+import importlib.util
 import json
 import os
 import pathlib
@@ -157,6 +158,15 @@ print(json.dumps(epafi.solve(sys.argv[1]).energy))
         output, errors = python(code, SCENES / "coercive.xml").communicate()
         self.assertEqual(errors, "")
         self.assertEqual(json.loads(output), epafi.solve(SCENES / "coercive.xml").energy)
+
+    @unittest.skipUnless(importlib.util.find_spec("pyvista"), "PyVista is not installed")
+    def test_pyvista_shows_bodies_as_they_are_displaced(self):
+        for scene, colour in (("punch", "von_mises"), ("coercive", "u")):
+            result = epafi.solve(SCENES / f"{scene}.xml")
+            plain, shown = result.to_meshio(), next(iter(result.plot("3-D").meshes))
+            self.assertEqual((shown.n_points, shown.active_scalars_name), (len(plain.points), colour))
+            moved = numpy.linalg.norm(shown.points - plain.points, axis=1).max()
+            self.assertAlmostEqual(moved / numpy.linalg.norm(numpy.ptp(plain.points, axis=0)), 0.1, delta=1e-6)
 
     def test_pictures_files_and_other_forms(self):
         result = epafi.solve(SCENES / "punch.xml")

@@ -128,7 +128,7 @@ struct Wedges {
 
 TEST(SolveTest, ASetThatMovesWithTheSolutionIsFollowed) {
   const Wedges wedges;
-  for (const Method method : {Method::mprgp, Method::activeSets}) {
+  for (const Method method : {Method::mprgp, Method::activeSets, Method::fixedPoint}) {
     Vector x(wedges.map);
     const auto report = qp::solve(wedges.program, method, {1e-10, 1.0}, {}, x);
     EXPECT_EQ(report.status, Status::converged) << report.reason;

@@ -24,7 +24,7 @@ except ImportError:
 _epafi.begin()
 
 from ._epafi import Error, InputError, SolvabilityError  # noqa: E402
-from .matrices import Problem, Solution  # noqa: E402
+from .matrices import Joint, Problem, Solution  # noqa: E402
 from .parameters import (Accuracy, Body, Decomposition, Equation, Load, Obstacle, Pair, Region, Scene, Solver,  # noqa: E402
                          Step, Support)
 from .qp import QpResult, solve_qp  # noqa: E402
@@ -47,6 +47,6 @@ Error.__doc__ = "What Epafi says of anything that went wrong: one sentence."
 InputError.__doc__ = "The input is wrong: where, the value found, and what is allowed."
 SolvabilityError.__doc__ = "The problem has no solution, or more than one: which body, and why."
 
-__all__ = ["Accuracy", "Body", "BodyFields", "ContactFields", "Decomposition", "Equation", "Error", "InputError", "Load",
+__all__ = ["Accuracy", "Body", "BodyFields", "ContactFields", "Decomposition", "Equation", "Error", "InputError", "Joint", "Load",
            "NotConverged", "Obstacle", "Pair", "Problem", "QpResult", "Region", "Result", "Scene", "Solution",
            "SolvabilityError", "Solver", "Stage", "Step", "Support", "TieFields", "solve", "solve_qp", "to_xml"]

@@ -106,7 +106,9 @@ class Condensed:
         slack, own = self.F @ multiplier - self.d, len(self.problem.gap)
         closed = numpy.abs(multiplier) > 1e-9 * numpy.abs(multiplier).max(initial=0)
         closed[self.problem.contacts:own] = True
-        closed[own:] = numpy.abs(multiplier[own:]) < (1 - 1e-9) * self.problem.friction_bound
+        tangents = (len(multiplier) - own) // max(len(self.problem.friction_row), 1)
+        sizes = numpy.linalg.norm(multiplier[own:].reshape(-1, max(tangents, 1)), axis=1)
+        closed[own:] = numpy.repeat(sizes < (1 - 1e-9) * self.problem.friction_bound, tangents)
         return numpy.linalg.lstsq(self.G.T[closed], slack[closed], rcond=1e-10)[0]
 
 
@@ -145,11 +147,61 @@ def _polished(condensed: Condensed, held: numpy.ndarray, expand: numpy.ndarray, 
     return dataclasses.replace(answer, u=found[:n], multiplier=multiplier[:own], tangential=multiplier[own:])
 
 
+def _newton_in_space(condensed: Condensed, polish: bool, steps: int) -> Answer:
+    """Friction on discs: |t| <= g, and what slips has t = g n, n = q/|q|, q = t - slack/D (Alart, Curnier 1991), linearised."""
+    problem, own, m = condensed.problem, len(condensed.problem.gap), len(condensed.d)
+    size = numpy.concatenate([condensed.F.diagonal() ** -0.5, 1 / numpy.maximum(numpy.linalg.norm(condensed.G, axis=1), 1e-300)])
+    pairs, z = numpy.arange(own, m).reshape(-1, 2), numpy.zeros(m + len(condensed.e))
+    law = numpy.hstack([condensed.F, -condensed.G.T])  # slack = law z - d
+    closed, slips, turns = numpy.ones(own, dtype=bool), numpy.zeros(len(pairs), dtype=bool), numpy.zeros((len(pairs), 2))
+    for step in range(1, steps + 1):
+        matrix = numpy.vstack([law, numpy.hstack([condensed.G, numpy.zeros(2 * condensed.e.shape)])])
+        right, scale = numpy.concatenate([condensed.d, condensed.e]), size.copy()
+        for i in [*numpy.flatnonzero(~closed), *pairs[slips].ravel()]:
+            matrix[i], right[i], scale[i] = 0, 0, 1 / size[i]
+            matrix[i, i] = 1
+        for i in numpy.flatnonzero(slips):
+            pair, n = pairs[i], turns[i]
+            q = z[pair] - (law[pair] @ z - condensed.d[pair]) * (size[pair] ** 2).mean()
+            bound = problem.friction_bound[i] + problem.friction[i] * max(z[problem.friction_row[i]], 0)
+            across = bound / numpy.linalg.norm(q) * (numpy.eye(2) - numpy.outer(n, n))
+            matrix[pair] -= across @ (matrix[pair] - law[pair] * (size[pair] ** 2).mean())
+            matrix[pair, problem.friction_row[i]] -= problem.friction[i] * n
+            right[pair] = problem.friction_bound[i] * n + across @ condensed.d[pair] * (size[pair] ** 2).mean()
+        scaled, last, z = scale[:, None] * matrix * size, z, numpy.zeros(len(z))
+        for _ in range(2):
+            z = z + size * numpy.linalg.lstsq(scaled, scale * (right - matrix @ z), rcond=1e-13)[0]
+        slack, before = law @ z - condensed.d, (closed, slips)
+        closed = z[:own] - slack[:own] * size[:own] ** 2 > 0
+        closed[problem.contacts:] = True
+        q = z[pairs] - slack[pairs] * (size[pairs] ** 2).mean(axis=1)[:, None]
+        bound = problem.friction_bound + problem.friction * numpy.maximum(z[problem.friction_row], 0)
+        length = numpy.linalg.norm(q, axis=1)
+        slips, turns = (length > bound) | (bound == 0), q / numpy.maximum(length, 1e-300)[:, None]
+        settled = numpy.abs((z - last) / size).max() <= 1e-13 * numpy.abs(z / size).max()
+        if settled and all((a == b).all() for a, b in zip(before, (closed, slips), strict=True)):
+            break
+    else:
+        raise RuntimeError(f"Newton's method does not settle in {steps} steps")
+    found = condensed.answer(z[:m], z[m:], step, "steps")
+    if not polish:
+        return found
+    holds = numpy.concatenate([closed, numpy.repeat(~slips, 2)])
+    held, fixed = numpy.flatnonzero(holds), numpy.zeros(m)
+    expand = numpy.eye(m)[:, held]
+    for i in numpy.flatnonzero(slips):
+        expand[pairs[i]] = numpy.outer(problem.friction[i] * turns[i], expand[problem.friction_row[i]])
+        fixed[pairs[i]] = problem.friction_bound[i] * turns[i]
+    return _polished(condensed, held, expand, fixed, found)
+
+
 def active_set(problem: ContactProblem, polish: bool = False, steps: int = 200) -> Answer:
-    """A semismooth Newton method (Hintermueller, Ito, Kunisch 2003) with dense exact solves; friction in the plane."""
-    if problem.is_bounded or len(problem.tangent_gap) != len(problem.friction_row):
-        raise NotImplementedError("bounds, or friction in space")
+    """A semismooth Newton method (Hintermueller, Ito, Kunisch 2003) with dense exact solves."""
+    if problem.is_bounded:
+        raise NotImplementedError("bounds")
     condensed = Condensed(problem)
+    if len(problem.tangent_gap) != len(problem.friction_row):
+        return _newton_in_space(condensed, polish, steps)
     condensed.require_solution()
     own, m, r = len(problem.gap), condensed.rows.shape[0], condensed.motions.shape[1]
     normal, is_coulomb = problem.friction_row, (problem.friction > 0)

@@ -11,7 +11,7 @@ import numpy
 from ._epafi import InputError
 from .condensed import Answer, ManySolutions, NoSolution
 from .condensed import active_set as polished
-from .peers import SOLVERS, Absent, Unfit, active_set
+from .peers import ALGORITHMS, SOLVERS, Absent, Unfit, active_set
 from .problems import ContactProblem, load, names
 
 NO_SOLUTION = "no solution"
@@ -168,10 +168,12 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python3 -m epafi.contest", description="Prints a table of solvers on problems.")
     parser.add_argument("problems", nargs="*", metavar="PROBLEM", help=f"of {', '.join(names())} (default: all)")
     parser.add_argument("--repeats", type=int, default=3, help="of which the best time counts (3)")
+    parser.add_argument("--algorithms", action="store_true", help="Epafi's by name on the same operator, not Epafi and others")
     parser.add_argument("--picture", metavar="FILE", help="draws the times, too")
     options = parser.parse_args(arguments)
     try:
-        entries = contest([load(name) for name in options.problems or names()], repeats=options.repeats)
+        entries = contest([load(name) for name in options.problems or names()], ALGORITHMS if options.algorithms else SOLVERS,
+                          repeats=options.repeats)
     except InputError as wrong:
         print(f"epafi.contest: {wrong}", file=sys.stderr)
         return 2

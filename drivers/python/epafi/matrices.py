@@ -18,11 +18,13 @@ class Solution:
 
     u: numpy.ndarray  #: of all unknowns, one body after the other; 0 where a body has none
     forces: numpy.ndarray  #: of the rows of contact, >= 0, in the unit of the loads over that of B
+    tangential: numpy.ndarray  #: of rows T of friction: Ku + B' forces + T' tangential = f
     energy: float  #: u'Ku/2 - f'u
     status: str  #: "Converged", ...
     reason: str
     products: int  #: with the dual operator
     setup_seconds: float  #: of the last set-up, which only the first solve makes
+    seconds: float  #: of the library in this call, without Python's, and of its set-up in the first
     subdomains: int
     feasibility: float
     complementarity: float
@@ -31,6 +33,45 @@ class Solution:
     @property
     def converged(self) -> bool:
         return self.status == "Converged"
+
+
+@dataclasses.dataclass(eq=False)
+class Joint:
+    """Rows of contact between two surfaces, for `Problem.set_contact`; the first surface has a row a node."""
+
+    rows: Any  #: B, m x unknowns of all bodies, a csr_matrix of SciPy; a row's multiplier is a force
+    gaps: numpy.ndarray  #: m: distances along the normals
+    areas: numpy.ndarray  #: m: what of the first surface (in the plane: its length) a row's force acts on
+    nodes: numpy.ndarray  #: m: numbers through all bodies
+    directions: numpy.ndarray  #: m x components: towards the second surface, of length 1
+
+
+def _outwards(facets: Any, cells: Any, places: numpy.ndarray) -> numpy.ndarray:
+    """Facets in the order of nodes in which their normals point out of the cells that they belong to."""
+    facets, cells = numpy.atleast_2d(facets).astype(numpy.int64), numpy.atleast_2d(cells).astype(numpy.int64)
+    if facets.shape[1] not in ((2,) if places.shape[1] == 2 else (3, 4)):
+        raise _epafi.InputError(f"facets have {facets.shape[1]} nodes, but must have {'2' if places.shape[1] == 2 else '3 or 4'}")
+    for numbers in (facets, cells):
+        if numbers.size == 0 or not 0 <= numbers.min() <= numbers.max() < len(places):
+            raise _epafi.InputError(f"facets and cells are nodes, numbered from 0 to {len(places) - 1}, at least one of each")
+    at_surface = numpy.zeros(len(places), dtype=bool)
+    at_surface[facets] = True
+    cells = cells[at_surface[cells].sum(axis=1) >= facets.shape[1]]
+    order = numpy.argsort(cells, axis=None, kind="stable")
+    sorted_nodes = cells.ravel()[order]
+    first, last = (numpy.searchsorted(sorted_nodes, facets[:, 0], side) for side in ("left", "right"))
+    own = numpy.full(len(facets), -1)
+    for k in range(int((last - first).max(initial=0))):
+        cell = order[numpy.minimum(first + k, len(order) - 1)] // cells.shape[1]
+        holds = (cells[cell][:, :, None] == facets[:, None, :]).any(axis=1).all(axis=1) & (first + k < last)
+        own[holds] = cell[holds]
+    if (own < 0).any():
+        raise _epafi.InputError(f"facet {numpy.flatnonzero(own < 0)[0]} belongs to no cell")
+    corner = places[facets[:, :3]]
+    along, inwards = corner[:, 1] - corner[:, 0], places[cells[own]].mean(axis=1) - corner[:, 0]
+    normal = (numpy.column_stack([along[:, 1], -along[:, 0]]) if places.shape[1] == 2 else
+              numpy.cross(along, corner[:, 2] - corner[:, 0]))
+    return numpy.where(numpy.sum(normal * inwards, axis=1)[:, None] > 0, facets[:, ::-1], facets)
 
 
 class Problem:
@@ -45,6 +86,8 @@ class Problem:
         self.nodes = 0
         self._bodies: list[tuple] = []
         self._contact: tuple | None = None
+        self._friction: tuple | None = None
+        self._points: list[numpy.ndarray] = []
         self._problem: Any = None
 
     @property
@@ -52,9 +95,12 @@ class Problem:
         """Of all bodies so far."""
         return self.nodes * self.components
 
-    def _places(self, coordinates: Any, held: Mapping[int, float] | None) -> tuple:
+    def _require_unsolved(self) -> None:
         if self._problem is not None:
             raise _epafi.InputError("the problem is solved already: bodies and contact come before the first solve")
+
+    def _places(self, coordinates: Any, held: Mapping[int, float] | None) -> tuple:
+        self._require_unsolved()
         places = numpy.asarray(coordinates, dtype=float)
         if places.ndim != 2 or places.shape[1] != self.dimension:
             raise _epafi.InputError(f"coordinates have shape {places.shape}, but must have {self.dimension} columns")
@@ -82,8 +128,10 @@ class Problem:
         numbers = self._numbers(numpy.arange(len(places) * self.components) if unknowns is None else unknowns, places)
         if len(numbers) != len(rows[0]) - 1:
             raise _epafi.InputError(f"the stiffness has {len(rows[0]) - 1} rows, but the body {len(numbers)} unknowns")
+        if len(rows[1]) and not 0 <= rows[1].min() <= rows[1].max() < len(numbers):
+            raise _epafi.InputError(f"the stiffness has {len(numbers)} rows, but an entry in column {rows[1].max()}")
         self._bodies.append(("add", name, (numbers, rows, places, first, held)))
-        return self._added(len(places))
+        return self._added(places)
 
     def add_elements(self, unknowns: Any, stiffness: Any, coordinates: Any, *, parts: Any = 1,
                      held: Mapping[int, float] | None = None, name: str = "") -> range:
@@ -106,18 +154,61 @@ class Problem:
         if len(parts) != len(numbers):
             raise _epafi.InputError(f"there are {len(parts)} numbers of parts, but {len(numbers)} elements")
         self._bodies.append(("add_elements", name, (numbers, matrices, numpy.asarray(parts), places, first, held)))
-        return self._added(len(places))
+        return self._added(places)
 
-    def _added(self, nodes: int) -> range:
-        self.nodes += nodes
-        return range(self.unknowns - nodes * self.components, self.unknowns)
+    def _added(self, places: numpy.ndarray) -> range:
+        self._points.append(places)
+        self.nodes += len(places)
+        return range(self.unknowns - len(places) * self.components, self.unknowns)
 
-    def set_contact(self, rows: Any, gaps: Any, friction: Any = None) -> None:
-        """Bu <= c: B, rows x unknowns of all bodies, and c; `friction` is Coulomb's coefficient, of each row or one for all."""
+    def joint(self, first: tuple[range, Any, Any], second: tuple[range, Any, Any], *, distance: float = numpy.inf,
+              gap: float = 0.0, name: str = "joint") -> Joint:
+        """Rows of contact between two surfaces, meshed alike or apart, by mortars with dual multipliers. Needs SciPy.
+
+        first, second  (unknowns, facets, cells): what `add_body` returned, nodes of the facets, two in the plane, three or four
+                       in space, and of the body's cells, of order 1, both by their numbers in the body; facets may be
+                       seen from either side. The first, best the finer and softer one, has the rows
+        distance       nodes farther from the other surface get no row
+        gap            added to the distances
+        """
+        import scipy.sparse
+        starts = numpy.cumsum([0, *map(len, self._points)])
+        sides = []
+        for unknowns, facets, cells in (first, second):
+            body = int(numpy.searchsorted(starts, unknowns.start // self.components, "right")) - 1
+            if body >= len(self._points) or len(unknowns) != len(self._points[body]) * self.components:
+                raise _epafi.InputError(f"{unknowns} are not the unknowns of a body of this problem")
+            sides.append(starts[body] + _outwards(facets, cells, self._points[body]))
+        found = _epafi.joint_of(name, self.components, numpy.concatenate(self._points), *sides, distance, gap)
+        indptr, indices, data = found.pop("rows")
+        return Joint(scipy.sparse.csr_matrix((data, indices, indptr), shape=(len(indptr) - 1, self.unknowns)), **found)
+
+    def set_contact(self, rows: Any, gaps: Any, friction: Any = None, *, bound: Any = None, tangents: Any = None, slips: Any = 0,
+                    nodes: Any = None) -> None:
+        """Bu <= c: B, rows x unknowns of all bodies, and c. With friction a node's tangential force is at most `bound` +
+        `friction` times its normal force, and along its slip Tu - s.
+
+        friction  Coulomb's coefficient, of each row or one for all
+        bound     a force (Tresca), likewise
+        tangents  T: of each row of B one row less than a node has components, one after the other; None: along the tangents of
+                  the direction in which a row of B acts
+        slips     s, of each row of T or one for all: what has slipped before
+        nodes     with `tangents`: rows of B that have friction, if not all; friction and bound are theirs then
+        """
+        self._require_unsolved()
         matrix, gaps = rows_of(rows), numpy.atleast_1d(numpy.asarray(gaps, dtype=float))
         count = len(matrix[0]) - 1
-        of_rows = [] if friction is None else numpy.broadcast_to(numpy.asarray(friction, dtype=float), count).tolist()
-        self._contact = (matrix, numpy.broadcast_to(gaps, count) if len(gaps) == 1 else gaps, self.unknowns, of_rows)
+        self._contact, self._friction = (matrix, numpy.broadcast_to(gaps, count) if len(gaps) == 1 else gaps, self.unknowns), None
+        if friction is None and bound is None:
+            return
+        nodes = numpy.arange(count) if nodes is None or tangents is None else numpy.ravel(nodes).astype(numpy.int64)
+        if len(numpy.unique(nodes)) < len(nodes) or not ((nodes >= 0) & (nodes < count)).all():
+            raise _epafi.InputError(f"nodes with friction are different rows of contact from 0 to {count - 1}")
+        of_nodes = [numpy.broadcast_to(numpy.asarray(0.0 if law is None else law, dtype=float), len(nodes)).tolist()
+                    for law in (friction, bound)]
+        along = None if tangents is None else rows_of(tangents)
+        given = None if along is None else (along, numpy.broadcast_to(numpy.asarray(slips, dtype=float), len(along[0]) - 1))
+        self._friction = (given, nodes.tolist(), *of_nodes, self.unknowns)
 
     def solve(self, loads: Any, *, gaps: Any = None, tolerance: float = 1e-6, parameters: Mapping[str, Any] | None = None,
               progress: bool | Callable | None = None, check: bool = True) -> Solution:
@@ -144,5 +235,7 @@ class Problem:
             getattr(problem, kind)(number, *arguments)
         if self._contact is not None:
             problem.set_contact(*self._contact)
+        if self._friction is not None:
+            problem.set_friction(*self._friction)
         problem.complete(_parameters.xml(parameters, _epafi.solver_schema(), "Solver"))
         return problem

@@ -3,8 +3,9 @@
 import glob
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
+from types import MappingProxyType
 from typing import Any
 
 import numpy
@@ -50,14 +51,12 @@ def active_set(problem: ContactProblem) -> Answer:
     raise RuntimeError("the active set does not settle")
 
 
-def fetidp(problem: ContactProblem, algorithm: str) -> Answer:
+def fetidp(problem: ContactProblem, algorithm: str, parameters: Mapping[str, Any] = MappingProxyType({})) -> Answer:
     """`epafi.Problem`, each body whole."""
     if problem.is_bounded:
         raise Unfit("bounds")
     if problem.contacts < len(problem.gap):
         raise Unfit("equations")
-    if (problem.friction_bound > 0).any():
-        raise Unfit("Tresca")
     if (problem.direction.max(axis=1) < 1).any():
         raise Unfit("turned axes")
     dimension = 3 if numpy.ptp(problem.coordinates[:, 2]) > 0 else 2
@@ -71,43 +70,42 @@ def fetidp(problem: ContactProblem, algorithm: str) -> Answer:
         places[own] = all_unknowns[0] + unknowns
     spread = scipy.sparse.csr_matrix((numpy.ones(len(places)), (numpy.arange(len(places)), places)),
                                      shape=(len(places), solver.unknowns))
-    friction = None
-    if len(problem.friction_row):
-        friction = numpy.zeros(len(problem.gap))
-        friction[problem.friction_row] = problem.friction
-    solver.set_contact(problem.constraint @ spread, problem.gap, friction)
+    friction = dict(friction=problem.friction, bound=problem.friction_bound, tangents=problem.tangent @ spread,
+                    slips=problem.tangent_gap, nodes=problem.friction_row) if len(problem.friction_row) else {}
+    solver.set_contact(problem.constraint @ spread, problem.gap, **friction)
     try:
         found = solver.solve(spread.T @ problem.load, tolerance=TOLERANCE,
-                             parameters={"Algorithm": algorithm, "Equilibrium Tolerance": TOLERANCE})
+                             parameters={"Algorithm": algorithm, "Equilibrium Tolerance": TOLERANCE, **parameters})
     except SolvabilityError as error:
         raise (ManySolutions if str(error).startswith("not unique") else NoSolution)(str(error)) from error
-    u = found.u[places]
-    tangential = NONE
-    if len(problem.tangent_gap):  # what is left of the balance
-        left = problem.load - problem.stiffness @ u - problem.constraint.T @ found.forces
-        tangential = scipy.sparse.linalg.lsqr(problem.tangent.T, left, atol=1e-15, btol=1e-15)[0]
-    return Answer(u, found.forces, tangential, found.products, "products")
+    return Answer(found.u[places], found.forces, found.tangential, found.products, "products")
 
 
-def program(problem: ContactProblem, algorithm: str) -> Answer:
-    """`epafi.solve_qp`: of u where there are bounds alone, else of the multipliers."""
-    parameters = {"Algorithm": algorithm}
+def program(problem: ContactProblem, algorithm: str, parameters: Mapping[str, Any] = MappingProxyType({}),
+            is_preconditioned: bool = False) -> Answer:
+    """`epafi.solve_qp`: of u where there are bounds alone, with the inverse of K as preconditioner or without, else of the
+    multipliers."""
+    parameters = {"Algorithm": algorithm, **parameters}
     if problem.is_bounded:
+        inverse = scipy.sparse.linalg.splu(problem.stiffness.tocsc()).solve if is_preconditioned else None
         found = solve_qp(problem.stiffness, problem.load, lower=problem.lower, upper=problem.upper, tolerance=TOLERANCE,
-                         parameters=parameters)
+                         preconditioner=inverse, parameters=parameters)
         return Answer(found.x, NONE, NONE, found.products, "products")
     if (problem.friction > 0).any():
         raise Unfit("Coulomb")
     dual, rows = Condensed(problem), len(problem.gap)
     lower, upper = numpy.full(len(dual.d), -numpy.inf), numpy.full(len(dual.d), numpy.inf)
     lower[:problem.contacts] = 0
-    if len(problem.tangent_gap) != len(problem.friction_row):
-        raise Unfit("discs")
-    lower[rows:], upper[rows:] = -problem.friction_bound, problem.friction_bound
+    discs = None
+    if len(problem.tangent_gap) == len(problem.friction_row):
+        lower[rows:], upper[rows:] = -problem.friction_bound, problem.friction_bound
+    else:
+        discs = numpy.arange(rows, len(dual.d)).reshape(-1, 2), problem.friction_bound
     scale = 1 / numpy.linalg.norm(dual.G, axis=1)[:, None] if len(dual.e) else 1
+    equalities = (scale * dual.G, (scale * dual.e[:, None]).ravel()) if len(dual.e) else None
     try:
-        found = solve_qp(dual.product, dual.d, lower=lower, upper=upper, tolerance=TOLERANCE, parameters=parameters,
-                         equalities=(scale * dual.G, (scale * dual.e[:, None]).ravel()) if len(dual.e) else None)
+        found = solve_qp(dual.product, dual.d, lower=lower, upper=upper, discs=discs, tolerance=TOLERANCE,
+                         parameters=parameters, equalities=equalities)
     except SolvabilityError as error:
         raise NoSolution(str(error)) from error
     return dual.answer(found.x, dual.motion_of(found.x), found.products, "products")
@@ -252,4 +250,31 @@ SOLVERS: dict[str, Callable[[ContactProblem], Answer]] = {
     "PETSc TAO blmvm": partial(petsc, kind="BLMVM"),
     "Clarabel": clarabel,
     "OSQP": osqp,
+}
+
+
+def by_name(problem: ContactProblem, algorithm: str, expansion: str = "auto", is_preconditioned: bool = True) -> Answer:
+    """An algorithm of Epafi's on the operator that all of them share: F of `epafi.Problem`, each body whole, or K where
+    unknowns have bounds. Where bodies float SMALBE-M is around MPRGP."""
+    steps = {"MPRGP": {"Expansion": expansion}, "SMALBE": {"Update": "balance"}} if algorithm == "MPRGP" else {}
+    has_coulomb = (problem.friction > 0).any()
+    if problem.is_bounded:
+        if algorithm == "fixed point":
+            raise Unfit("no friction")
+        return program(problem, algorithm, steps, is_preconditioned)
+    if algorithm == ("MPRGP" if has_coulomb else "fixed point"):
+        raise Unfit("Coulomb" if has_coulomb else "no friction")
+    return fetidp(problem, algorithm, steps if is_preconditioned else {**steps, "Preconditioner": {"Type": "none"}})
+
+
+#: By name, on the same F. In face: with M restricted to the free set (Kruzik, Horak 2025).
+ALGORITHMS: dict[str, Callable[[ContactProblem], Answer]] = {
+    "default": partial(by_name, algorithm="auto"),
+    "MPRGP": partial(by_name, algorithm="MPRGP", expansion="fixed step", is_preconditioned=False),
+    "MPPCG": partial(by_name, algorithm="MPRGP", expansion="projected CG", is_preconditioned=False),
+    "MPRGP, M in face": partial(by_name, algorithm="MPRGP", expansion="fixed step"),
+    "MPPCG, M in face": partial(by_name, algorithm="MPRGP", expansion="projected CG"),
+    "active set": partial(by_name, algorithm="active set", is_preconditioned=False),
+    "active set, M in face": partial(by_name, algorithm="active set"),
+    "fixed point": partial(by_name, algorithm="fixed point"),
 }

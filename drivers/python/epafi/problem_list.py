@@ -74,10 +74,11 @@ HALF_CLOSED = {
 
 
 def _on_floor(force: list, **contact: Any) -> dict:
-    """A square block on a rigid floor, whose top is pressed; nothing else holds it."""
-    return {"Bodies": {"block": _block([0, 1, 0, 1], [16, 16], 1.0, 2,
+    """A square block, or a cube, on a rigid floor, whose top is pressed; nothing else holds it."""
+    d = len(force)
+    return {"Bodies": {"block": _block(d * [0, 1], d * [16 if d == 2 else 8], 1.0, 4 - d,
                                        Loads={"press": {"Kind": "traction", "Surface": "top", "Force": force}})},
-            "Obstacles": {"floor": {"Kind": "plane", "Point": [0, 0], "Normal": [0, 1]}},
+            "Obstacles": {"floor": {"Kind": "plane", "Point": d * [0], "Normal": [*(d - 1) * [0], 1]}},
             "Contact": {"foot": {"First Body": "block", "First Surface": "bottom", "Obstacle": "floor", **contact}}}
 
 
@@ -117,7 +118,11 @@ PROBLEMS = {
     "cattaneo_mindlin": _scene("cattaneo_mindlin.xml", "Cattaneo and Mindlin: cylinders with Coulomb friction", MM, -2545.3688603),
     "sheared_block": _scene(_on_floor([0.002, -0.01], Friction=0.3), "A block that Coulomb friction holds", ONE, -5.7644022686e-05),
     "tresca_block": _scene(_on_floor([0.002, -0.01], **{"Friction Bound": 0.003}), "The same with a bound of friction", ONE,
-                           -5.9292735492e-05, EXACT + "MPRGP of the multipliers agrees to 1e-10"),
+                           -5.9292735492e-05),
+    "sheared_cube": _scene(_on_floor([0.0018, 0.0009, -0.01], Friction=0.3), "A cube that Coulomb friction holds", ONE,
+                           -6.2444988193e-05),
+    "tresca_cube": _scene(_on_floor([0.0018, 0.0009, -0.01], **{"Friction Bound": 0.003}), "The same with a bound of friction",
+                          ONE, -6.4630601859e-05),
     "may_slide": _scene(_on_floor([0.0, -0.01]), "A block that may stand anywhere", ONE, -4.55e-05,
                         "closed form: p^2 (1 - nu^2) / 2E of even pressure", verdict="many solutions"),
     "lifted": _scene("semicoercive.xml", "A membrane that nothing holds down", ONE, None,

@@ -151,10 +151,13 @@ class Result:
         return pathlib.Path(self._run.write(os.fspath(directory), self.name))
 
     def plot(self, what: str = "shape") -> Any:
-        """matplotlib's figure: "shape", "decomposition", "mesh", "convergence", or a contact's name.
+        """matplotlib's figure: "shape", "decomposition", "mesh", "convergence", or a contact's name; "3-D" is PyVista's Plotter of
+        this rank's arrays, to turn by hand (`.show()`) or to save (`.screenshot(file)`).
 
-        Collective; returns None on other ranks than the first. Needs h5py, on several ranks mpi4py.
+        Collective; returns None on other ranks than the first, but for "3-D". Needs h5py, on several ranks mpi4py.
         """
+        if what == "3-D":
+            return self._plotter()
         from .plot import contact, convergence, mesh, plane, pressure, space, subdomains, surface
         from .plot.run import read_run
         with tempfile.TemporaryDirectory(prefix="epafi-") as own:
@@ -177,8 +180,22 @@ class Result:
         for pair in run.contacts:
             if pair.name == what:
                 return pressure.figure(run, pair) if in_space else contact.figure(run, pair)
-        there = ", ".join(["shape", "decomposition", "mesh", "convergence", *self.contacts])
+        there = ", ".join(["shape", "decomposition", "mesh", "convergence", "3-D", *self.contacts])
         raise ValueError(f"there is no picture {what!r}; there are {there}")
+
+    def _plotter(self) -> Any:
+        """Bodies as they are displaced, enlarged such that a tenth of their size is the most, coloured by von Mises's stress or the
+        deflection."""
+        import pyvista
+        mesh = pyvista.from_meshio(self.to_meshio())
+        if "u" in mesh.point_data:
+            mesh["displacement"] = numpy.outer(mesh["u"], [0, 0, 1])
+        largest = numpy.linalg.norm(mesh["displacement"], axis=1).max()
+        factor = mesh.length / 10 / largest if largest > 0 else 0
+        plotter = pyvista.Plotter()
+        plotter.add_mesh(mesh.warp_by_vector("displacement", factor=factor), scalars="u" if "u" in mesh.point_data else "von_mises",
+                         show_edges=True)
+        return plotter
 
     def to_meshio(self) -> Any:
         """meshio's Mesh of all bodies of this rank's arrays, with `displacement` (or `u`), `von_mises` and `body`."""

@@ -184,7 +184,10 @@ void QpSolver::Run::iterate() {
     const double c = b.isHomogeneous() ? 0.0 : b.normOf(b.rightHandSide()), norm = program.operatorNorm;
     tolerances.constraintReference = c > 0 ? c : norm > 0 ? b.norm() * reference / norm : 0.0;
   }
-  solution.report = qp::solve(program, solver.method_, tolerances, solver.methods_, x, observer);
+  // Along circles MPRGP ends steps again and again.
+  const Method suiting = program.set->isCurved() ? Method::activeSets : Method::mprgp;
+  solution.report =
+      qp::solve(program, solver.method_.value_or(suiting), tolerances, solver.methods_, x, observer);
   if (program.setAt)
     program.set = program.setAt(x);
 }

@@ -11,7 +11,7 @@
 namespace epafi::qp {
 namespace {
 
-const std::vector<std::string> algorithms{"MPRGP", "active set"}; ///< in the order of Method
+const std::vector<std::string> algorithms{"auto", "MPRGP", "active set"};
 
 } // namespace
 
@@ -28,7 +28,7 @@ Teuchos::ParameterList QpSolver::validParameters() {
       list, "Algorithm", algorithms.front(),
       "'MPRGP', with SMALBE around it where there are equations; 'active set', primal–dual active sets, "
       "after which MPRGP goes on where their faces do not settle, and with more than 'Maximum Dense Rows' "
-      "equations.",
+      "equations; 'auto', active sets with discs, else MPRGP.",
       algorithms);
   addReal(list, "Constraint Tolerance", 1e-6,
           "Stop only if ‖Bx − c‖ ≤ this times ‖c‖ (or, if c = 0, ‖B‖‖b‖/‖A‖) as well.", 0.0, 1.0, true);
@@ -52,7 +52,8 @@ QpSolver::QpSolver(const Teuchos::ParameterList& parameters) {
   constraintTolerance_ = list.get<double>("Constraint Tolerance");
   maxDenseRows_ = list.get<int>("Maximum Dense Rows");
   operatorNorm_ = list.get<double>("Operator Norm");
-  method_ = enumeratorFrom<Method>(list, "Algorithm", algorithms);
+  if (const auto& name = list.get<std::string>("Algorithm"); name != "auto")
+    method_ = name == "MPRGP" ? Method::mprgp : Method::activeSets;
   methods_.mprgp = MprgpParameters::from(list.sublist("MPRGP"));
   methods_.smalbe = SmalbeParameters::from(list.sublist("SMALBE"));
   norm_ = NormEstimateParameters::from(list.sublist("Norm Estimate"));

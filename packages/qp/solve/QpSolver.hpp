@@ -19,6 +19,7 @@
 #include <Teuchos_Describable.hpp>
 #include <Teuchos_ParameterList.hpp>
 
+#include <optional>
 #include <string>
 
 namespace epafi::qp {
@@ -52,7 +53,7 @@ private:
 
   double tolerance_, absoluteTolerance_, constraintTolerance_, reference_, operatorNorm_;
   int maxDenseRows_;
-  Method method_;
+  std::optional<Method> method_; ///< none: chosen
   SolveParameters methods_;
   NormEstimateParameters norm_;
   std::string lastRun_ = "not run yet";

@@ -44,7 +44,7 @@ private:
   [[nodiscard]] bool isToGoOn() const;
   bool isProvedUnbounded();
   void solveWithin(const QuadraticProgram& given, const Tolerances& tolerances, double& reduction);
-  void fixSet();
+  void fixSet(RCP<const ConvexSet> first);
 
   QuadraticProgram program_;
   const Tolerances& tolerances_;
@@ -94,6 +94,10 @@ void Course::iterate(Method method) {
     if (!givesWay || !isToGoOn())
       return;
   }
+  if (method == Method::fixedPoint && program_.setAt) {
+    fixSet(program_.set);
+    return;
+  }
   std::optional<Vector> all;
   if (parameters_.beginsFree)
     all.emplace(x_.getMap()).putScalar(1.0);
@@ -104,7 +108,7 @@ void Course::iterate(Method method) {
   if (status != Status::unbounded && status != Status::stagnated && status != Status::notFinite)
     return;
   if (program_.setAt)
-    fixSet();
+    fixSet(program_.setAt(x_));
   else
     byMprgp(program_);
 }
@@ -178,18 +182,18 @@ void Course::solveWithin(const QuadraticProgram& given, const Tolerances& tolera
 }
 
 /// Ω(x) as a fixed point of problems with given sets: slower than faces that take the bounds along, but each
-/// of them has a solution that is found. Collective.
-void Course::fixSet() {
+/// of them has a solution that is found. \param first  the set of the first of them. Collective.
+void Course::fixSet(RCP<const ConvexSet> first) {
   constexpr int maxRounds = 60;
-  constexpr double first = 1e-2, share = 0.1; // of what bounds still move, each problem is solved to
+  constexpr double roughest = 1e-2, share = 0.1; // of what bounds still move, each problem is solved to
   const double reference = tolerances_.gradientReference;
   QuadraticProgram given = program_;
   given.setAt = {};
   Tolerances rough = tolerances_;
-  double reduction = parameters_.faceReduction, moved = first / share * reference;
+  double reduction = parameters_.faceReduction, moved = roughest / share * reference;
   Vector source(x_, Teuchos::Copy); // where bounds come from
   Relaxation relaxation;
-  given.set = program_.setAt(source);
+  given.set = std::move(first);
   for (int round = 0; round < maxRounds; ++round) {
     if (tolerances_.error == nullptr && reference > 0)
       rough.gradient = std::max(tolerances_.gradient, share * moved / reference);

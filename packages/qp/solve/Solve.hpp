@@ -12,9 +12,11 @@ namespace epafi::qp {
 
 /// What a solve begins with.
 enum class Method {
-  mprgp,            ///< MPRGP; SMALBE around it where there are equations
-  activeSets,       ///< ActiveSets.hpp
-  conjugateGradient ///< of programs without a set, and without equations or on Ker B (ConjugateGradient.hpp)
+  mprgp,             ///< MPRGP; SMALBE around it where there are equations
+  activeSets,        ///< ActiveSets.hpp
+  conjugateGradient, ///< of programs without a set, and without equations or on Ker B (ConjugateGradient.hpp)
+  /// Of Ω(x): problems with the Ω of the last solution, each by active sets; of a given Ω active sets
+  fixedPoint
 };
 
 /// What methods are told.

@@ -36,6 +36,7 @@ RightHandSide rightHandSide(const DualProblem& dual, const ProblemData& data) {
 /// Without contact and with an error to balance it is CG by MPRGP, which watches the error.
 qp::Method methodOf(Algorithm algorithm, bool isBalanced) {
   return algorithm == Algorithm::activeSets                         ? qp::Method::activeSets
+         : algorithm == Algorithm::fixedPoint                       ? qp::Method::fixedPoint
          : algorithm == Algorithm::conjugateGradient && !isBalanced ? qp::Method::conjugateGradient
                                                                     : qp::Method::mprgp;
 }

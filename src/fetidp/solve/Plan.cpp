@@ -42,11 +42,11 @@ void chooseAlgorithm(const PlanFacts& facts, const DualParameters& parameters, P
              mayBegin = facts.isElastic && facts.primalDimension >= facts.run.coarserFrom,
              isGood = mayBegin && facts.run.hasStart, isOpen = parameters.method == Method::automatic,
              slips = facts.numFriction > 0,
-             suits =
-                 isOpen ? slips || hasPreconditioner(parameters) : parameters.method == Method::activeSets;
-  plan.algorithm = suits && (!isOpen || floats || isGood || slips) ? Algorithm::activeSets
-                   : floats                                        ? Algorithm::smalbe
-                                                                   : Algorithm::mprgp;
+             suits = isOpen ? slips || hasPreconditioner(parameters) : parameters.method != Method::mprgp;
+  plan.algorithm = slips && parameters.method == Method::fixedPoint  ? Algorithm::fixedPoint
+                   : suits && (!isOpen || floats || isGood || slips) ? Algorithm::activeSets
+                   : floats                                          ? Algorithm::smalbe
+                                                                     : Algorithm::mprgp;
   plan.reasons["Active Sets"] = !isOpen  ? "as given"
                                 : slips  ? "yes: with friction steps of MPRGP end at bounds again and again"
                                 : !suits ? "no: there is no preconditioner"
@@ -152,7 +152,7 @@ void chooseSearches(const PlanFacts& facts, const DualParameters& parameters, Pl
 } // namespace
 
 std::string toString(Algorithm algorithm) {
-  constexpr const char* names[] = {"Direct", "CG", "MPRGP", "SMALBE-M", "Active sets"};
+  constexpr const char* names[] = {"Direct", "CG", "MPRGP", "SMALBE-M", "Active sets", "Fixed point"};
   return names[static_cast<int>(algorithm)];
 }
 

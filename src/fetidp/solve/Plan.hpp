@@ -25,17 +25,18 @@ namespace epafi::fetidp {
 ///   contact, all supported MPRGP
 ///   floating bodies SMALBE with MPRGP inside, on PFP after the shift by λ̃; or active sets, with Gλ = e held
 ///   exactly
-enum class Algorithm { direct, conjugateGradient, mprgp, smalbe, activeSets };
+///   Coulomb's friction     active sets with bounds that follow; or a fixed point of problems with given ones
+enum class Algorithm { direct, conjugateGradient, mprgp, smalbe, activeSets, fixedPoint };
 
-/// "Direct", "CG", "MPRGP", "SMALBE-M", "Active sets".
+/// "Direct", "CG", "MPRGP", "SMALBE-M", "Active sets", "Fixed point".
 std::string toString(Algorithm algorithm);
 
 /// How the dual problem is to be solved, and how accurately, as the user gives it.
 struct DualParameters : FetiParameters {
   /// Of problems with contact: active sets where bodies float or the start is good, and there is a
-  /// preconditioner, and with friction; MPRGP or SMALBE; active sets. Coulomb's friction is for active sets
-  /// whatever is asked for.
-  enum class Method { automatic, mprgp, activeSets };
+  /// preconditioner, and with friction; MPRGP or SMALBE; active sets; where there is friction a fixed point
+  /// of its bounds, else active sets. Coulomb's friction is for active sets if MPRGP is asked for.
+  enum class Method { automatic, mprgp, activeSets, fixedPoint };
   Method method = Method::automatic; ///< how contact is found
   std::optional<double> tolerance{}; ///< on ‖g^P‖ relative to ‖d̃‖ or ‖Pd‖; none: as the purpose asks
   bool isBalanced = false;           ///< in its place: the algebraic error against the discretisation error
