@@ -162,6 +162,23 @@ class Friction(unittest.TestCase):
         report = study.xml.etree.ElementTree.parse(self.place / "report.xml").getroot()
         self.assertAlmostEqual(float(study.listed(report, "Contact", "joint", "Force")), 50.0 * 100, delta=1e-3)
 
+    def test_the_loop_of_a_bolted_joint_closes(self):
+        """What is pulled to and fro past sliding finds the same forces in the second cycle."""
+        rows, off = self.compared("joint", 2.0)
+        self.assertEqual(len(rows), 25)
+        for name, most in (("force pulled forth again", 1e-6), ("force pulled back again", 1e-6), ("work of a cycle", 1e-3),
+                           ("work and the loop's area", 0.2)):
+            self.assertLess(off[name], most, name)
+        report = study.xml.etree.ElementTree.parse(self.place / "report.xml").getroot()
+        slides = study.listed(report, "Steps", "back 2: -1", "Contact", "joint")
+        self.assertEqual(float(study.listed(slides, "Stick Area")), 0)
+        force, pressing = study.listed(slides, "Tangential Force").strip("{}").split(","), float(study.listed(slides, "Force"))
+        self.assertAlmostEqual(abs(float(force[0])) / (0.15 * pressing), 1, places=2)
+        turned = study.listed(report, "Steps", "back 2: 0.8", "Contact", "joint")
+        self.assertGreater(float(study.listed(turned, "Stick Area")), 0)
+        bolt = study.listed(report, "Steps", "bolt", "Preload", "bolt")
+        self.assertEqual(float(study.listed(bolt, "Force")), 2500)
+
     def test_slip_is_the_displacement_along_the_floor_and_traction_within_coulombs_law_at_each_node(self):
         (self.place / "cube.geo").write_text(CUBE, encoding="utf-8")
         for mesh in ("plane", "space", "cube.geo"):
@@ -256,7 +273,7 @@ class Friction(unittest.TestCase):
     def test_the_study_writes_tables_and_says_what_went_wrong(self):
         ended = run("--program", EPAFI, "--output", self.place, "--factor", 4)
         self.assertEqual((ended.returncode, ended.stderr), (COMPLETE, ""))
-        for name, first in (("traction", "x"), ("loop", "displacement")):
+        for name, first in (("traction", "x"), ("loop", "displacement"), ("joint", "displacement")):
             with open(self.place / f"friction_{name}.csv", newline="", encoding="utf-8") as stream:
                 rows = list(csv.DictReader(stream))
             self.assertEqual({row["source"] for row in rows} - {"closed form", "thin strip"}, {"computed"})

@@ -45,7 +45,7 @@ public:
     for (int step = 0; step < maxSteps; ++step) {
       precondition();
       const double energy = accurateDot(r_, z_);
-      if (!(energy > share * squared))
+      if (!(energy > (m_.is_null() ? 1 : overrated) * share * squared))
         break;
       setConjugate(z_, last > 0 ? -energy / last : 0.0, p_);
       last = energy;
@@ -81,7 +81,6 @@ private:
   }
   /// z = P_F W M W r (Face::weigh).
   void precondition() {
-    constexpr double overrated = 4; // as in FaceIteration
     if (m_.is_null()) {
       copy(r_, z_);
       return;
@@ -113,6 +112,8 @@ private:
     addScaled(-length, bent_, r_);
     return true;
   }
+
+  static constexpr double overrated = 4; ///< A⁻¹ by M, as in FaceIteration
 
   const Operator& a_;
   RCP<const Operator> m_;
