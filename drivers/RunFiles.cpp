@@ -61,6 +61,39 @@ std::string tableOf(const std::vector<accuracy::MeshResult>& meshes) {
   return table.str();
 }
 
+/// A line each step and contact.
+std::string tableOf(const std::vector<simulation::StepResult>& steps) {
+  std::ostringstream table;
+  table << "number,step,hessian_multiplications,strain_energy,load_work,dissipation,contact,force,"
+           "resultant_x,resultant_y,resultant_z,largest_pressure,contact_area,tangential_x,tangential_y,"
+           "tangential_z,stick_area,slip_area,open_area,largest_slip,contact_dissipation\n";
+  table.precision(12);
+  const auto quoted = [](std::string name) {
+    for (std::size_t at = name.find('"'); at != std::string::npos; at = name.find('"', at + 2))
+      name.insert(at, 1, '"');
+    return '"' + name + '"';
+  };
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    for (const simulation::ContactResult& contact : steps[k].contacts) {
+      table << k + 1 << ',' << quoted(steps[k].name) << ',' << steps[k].multiplications;
+      for (const double number : {steps[k].strainEnergy, steps[k].loadWork, steps[k].dissipation})
+        table << ',' << number;
+      table << ',' << quoted(contact.name);
+      const auto& [x, y, z] = contact.resultant;
+      for (const double number : {contact.force, x, y, z, contact.largestPressure, contact.area})
+        table << ',' << number;
+      if (const auto& friction = contact.friction)
+        for (const double number : {friction->tangentialForce[0], friction->tangentialForce[1],
+                                    friction->tangentialForce[2], friction->stickArea, friction->slipArea,
+                                    friction->openArea, friction->largestSlip, friction->dissipation})
+          table << ',' << number;
+      else
+        table << ",,,,,,,,";
+      table << '\n';
+    }
+  return table.str();
+}
+
 /// What a stage is.
 std::string stageOf(const simulation::RunResult& result) {
   return result.steps.empty() ? "mesh" : "step";
@@ -164,6 +197,11 @@ void RunFiles::prepareFields(simulation::SceneRun& run, output::FileSet& files) 
     return line("fields", fields.hdf5.string() + " and " + fields.xdmf.string());
   });
   lines_ += table;
+  if (!steps.empty())
+    attempt(directory / "steps.csv", [&] {
+      files.write(directory / "steps.csv", [&] { return tableOf(steps); });
+      return line("steps", (directory / "steps.csv").string());
+    });
   if (run.result.target)
     attempt(directory / "meshes.csv", [&] {
       files.write(directory / "meshes.csv", [&] { return tableOf(run.result.target->meshes); });

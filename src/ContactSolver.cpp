@@ -181,11 +181,18 @@ void ContactSolver::measureFeedback(const decomposition::ProblemData& data,
   program.preconditioner = dual_->operators().facePreconditioner;
   program.equality = dual_->coarseSpace();
   program.setAt = [&](const Vector& lambda) { return dual_->feasibleForces(data, lambda); };
-  const qp::BoundFeedback feedback = qp::boundFeedback(program, *solution.multiplier, *solution.slack);
+  Vector error(solution.slack->getMap()), gradient(error.getMap()); // with the bounds given, about
+  program.setAt(*solution.multiplier)
+      ->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
+  if (const RCP<const Operator> m = program.preconditioner; m.is_null() || gradient.normInf() == 0)
+    error.update(1.0, gradient.normInf() == 0 ? *solution.multiplier : gradient, 0.0);
+  else
+    m->apply(gradient, error);
+  const qp::BoundFeedback feedback = qp::boundFeedback(program, *solution.multiplier, *solution.slack, error);
   solution.frictionFeedback = feedback.factor;
   solution.feedbackMultiplications = feedback.multiplications;
-  solution.algebraicError = feedback.factor < 1 ? solution.algebraicError / (1 - feedback.factor)
-                                                : std::numeric_limits<double>::quiet_NaN();
+  solution.algebraicError *= feedback.factor < 1 ? std::max(feedback.amplification, 1 / (1 - feedback.factor))
+                                                 : std::numeric_limits<double>::quiet_NaN();
 }
 
 namespace {

@@ -125,8 +125,9 @@ private:
       pass(values[key]);
   }
   void pass(FrictionResult& friction) {
-    (*this)(friction.tangentialForce, friction.moment, friction.stickArea, friction.slipArea,
-            friction.dissipation, friction.largestSlip);
+    (*this)(friction.tangentialForce, friction.moment, friction.tangentialMoment, friction.centre,
+            friction.centreMoment, friction.centreTangential, friction.stickArea, friction.slipArea,
+            friction.openArea, friction.dissipation, friction.largestSlip);
   }
   void pass(JointBalance& balance) { (*this)(balance.coupling, balance.force, balance.moment); }
   void pass(ContactResult& contact) {

@@ -129,8 +129,13 @@ void enterFriction(const ContactResult& contact, ParameterList& list) {
   list.set("Normal Force", contact.force)
       .set("Tangential Force", arrayOf(contact.friction->tangentialForce))
       .set("Moment", arrayOf(contact.friction->moment))
+      .set("Tangential Moment", arrayOf(contact.friction->tangentialMoment))
+      .set("Centre", arrayOf(contact.friction->centre))
+      .set("Moment about Centre", arrayOf(contact.friction->centreMoment))
+      .set("Tangential Moment about Centre", arrayOf(contact.friction->centreTangential))
       .set("Stick Area", contact.friction->stickArea)
       .set("Slip Area", contact.friction->slipArea)
+      .set("Open Area", contact.friction->openArea)
       .set("Dissipation", contact.friction->dissipation)
       .set("Largest Slip", contact.friction->largestSlip);
 }

@@ -18,8 +18,8 @@ namespace {
 
 using namespace epafi;
 
-/// Nodes that are open, stick or slip in turns: of each a normal entry x_n ≥ 0 and one or two tangential ones,
-/// at most μ x_n. The gradient is what holds what slips there.
+/// Nodes that are open, stick or slip in turns: of each a normal entry x_n ≥ 0 and one or two tangential
+/// ones, at most μ x_n. The gradient is what holds what slips there.
 struct Nodes {
   int numNodes, components;
   double friction;
@@ -92,8 +92,9 @@ struct Nodes {
     return rcp(new qp::Box(lower, upper, growth));
   }
 
-  /// The largest eigenvalue in size of T′ = S − Z(Zᵀ(A + K)Z)⁻¹ZᵀAS, with Bv = 0 where there are rows.
-  [[nodiscard]] double largestEigenvalue() const {
+  [[nodiscard]] double largestEigenvalue() const { return derivative().eigenvalues().cwiseAbs().maxCoeff(); }
+  /// T′ = S − Z(Zᵀ(A + K)Z)⁻¹ZᵀAS, with Bv = 0 where there are rows.
+  [[nodiscard]] Eigen::MatrixXd derivative() const {
     const Eigen::Index n = a.rows(), m = rows.rows();
     Eigen::MatrixXd follows = Eigen::MatrixXd::Zero(n, n), face = Eigen::MatrixXd::Zero(n, n), bending = face;
     for (int k = 0; k < numNodes; ++k) {
@@ -120,15 +121,15 @@ struct Nodes {
       whole.bottomLeftCorner(m, n) = rows * face;
       right.bottomRows(m) = -rows * follows;
     }
-    const Eigen::MatrixXd derivative = follows + whole.fullPivLu().solve(right).topRows(n);
-    return derivative.eigenvalues().cwiseAbs().maxCoeff();
+    return follows + whole.fullPivLu().solve(right).topRows(n);
   }
 };
 
 qp::BoundFeedback feedbackOf(const Nodes& nodes, bool isPreconditioned) {
   const qp::QuadraticProgram program = nodes.handedOver(isPreconditioned);
   const auto map = program.hessian->getDomainMap();
-  return boundFeedback(program, *test::makeVector(map, nodes.x), *test::makeVector(map, nodes.gradient));
+  return boundFeedback(program, *test::makeVector(map, nodes.x), *test::makeVector(map, nodes.gradient),
+                       *test::makeVector(map, nodes.x));
 }
 
 TEST(BoundFeedbackTest, OfOneNodeThatSlipsItIsWhatItsTangentialForceMakesOfItsNormalOne) {
@@ -137,8 +138,27 @@ TEST(BoundFeedbackTest, OfOneNodeThatSlipsItIsWhatItsTangentialForceMakesOfItsNo
   node.a << 2, 1, 1, 3;
   const qp::BoundFeedback found = feedbackOf(node, false);
   EXPECT_NEAR(node.largestEigenvalue(), 0.3, 1e-15);
-  EXPECT_NEAR(found.factor, 0.3, 1e-12);
-  EXPECT_LE(found.multiplications, 8);
+  EXPECT_NEAR(found.factor, 0.3, 1e-8);
+  EXPECT_LE(found.multiplications, 12);
+}
+
+TEST(BoundFeedbackTest, WhatAnErrorBecomesIsTheSumOfAllItsImages) {
+  for (const int components : {2, 3})
+    for (const double friction : {0.3, 1.0})
+      for (unsigned seed = 1; seed <= 5; ++seed) {
+        SCOPED_TRACE(testing::Message()
+                     << components << " components, friction " << friction << ", seed " << seed);
+        const Nodes nodes(12, components, friction, seed);
+        Eigen::VectorXd error = nodes.x; // what of x the face may move: not what slips, along its force
+        for (int k = 0; k < nodes.numNodes; ++k)
+          if (Nodes::slips(k))
+            error.segment(Eigen::Index{components} * k + 1, components - 1).setZero();
+        const Eigen::Index n = error.size();
+        const Eigen::VectorXd whole =
+            (Eigen::MatrixXd::Identity(n, n) - nodes.derivative()).fullPivLu().solve(error);
+        const double expected = std::sqrt(whole.dot(nodes.a * whole) / error.dot(nodes.a * error));
+        EXPECT_NEAR(feedbackOf(nodes, true).amplification, expected, 0.15 * expected);
+      }
 }
 
 TEST(BoundFeedbackTest, WhereNothingSlipsThereIsNone) {
@@ -166,7 +186,7 @@ TEST(BoundFeedbackTest, ItIsTheLargestEigenvalueOfTheDerivative) {
                          << components << " components, friction " << friction << ", rows " << numRows
                          << ", preconditioned " << isPreconditioned << ", seed " << seed << ": " << expected
                          << " " << found.factor << " by " << found.multiplications);
-            EXPECT_LE(std::abs(found.factor - expected), (isPreconditioned ? 0.15 : 0.25) * (1 - expected));
+            EXPECT_LE(std::abs(found.factor - expected), (isPreconditioned ? 0.15 : 0.35) * (1 - expected));
             EXPECT_LE(found.multiplications, isPreconditioned ? 40 : 70);
           }
 }

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace epafi::qp {
@@ -37,27 +39,32 @@ public:
   [[nodiscard]] bool follows() const {
     return holdsAnywhere(*moved_.getMap()->getComm(), !face_.followers.empty());
   }
-  /// v ← T′v. \param share  of ‖v‖², by what the face's minimum is less
+  /// v ← T′v. \param share  by which rᵀMr falls, r the residual of the face
   void respond(double share) {
     constexpr int maxSteps = 30;
     begin();
-    double squared = accurateDot(moved_, image_), last = 0;
+    double first = 0, last = 0;
     for (int step = 0; step < maxSteps; ++step) {
       precondition();
       const double energy = accurateDot(r_, z_);
-      if (!(energy > (m_.is_null() ? 1 : overrated) * share * squared))
+      first = step == 0 ? energy : first;
+      if (!(energy > 0) || (step > 0 && energy <= share * first))
         break;
       setConjugate(z_, last > 0 ? -energy / last : 0.0, p_);
       last = energy;
       multiply(p_, work_);
       if (!advance(energy))
         break;
-      squared = accurateDot(moved_, image_);
     }
   }
-  void setMoved(const Vector& x) { copy(x, moved_); } ///< v = x
-  [[nodiscard]] Vector& moved() { return moved_; }    ///< v
-  [[nodiscard]] Vector& image() { return image_; }    ///< Av
+  /// v = what of x the face may move, with Bv = 0.
+  void start(const Vector& x) {
+    copy(x, moved_);
+    equality_.project(moved_);
+    multiply(moved_, image_);
+  }
+  [[nodiscard]] Vector& moved() { return moved_; } ///< v
+  [[nodiscard]] Vector& image() { return image_; } ///< Av
   [[nodiscard]] int multiplications() const { return multiplications_; }
 
 private:
@@ -81,6 +88,7 @@ private:
   }
   /// z = P_F W M W r (Face::weigh).
   void precondition() {
+    constexpr double overrated = 4; // A⁻¹ by M, as in FaceIteration
     if (m_.is_null()) {
       copy(r_, z_);
       return;
@@ -112,8 +120,6 @@ private:
     addScaled(-length, bent_, r_);
     return true;
   }
-
-  static constexpr double overrated = 4; ///< A⁻¹ by M, as in FaceIteration
 
   const Operator& a_;
   RCP<const Operator> m_;
@@ -150,17 +156,45 @@ double spectralRadius(SmallMatrix matrix) {
   return std::exp(logarithm);
 }
 
-/// q from x.
+/// ‖(I − H)⁻¹e₁‖, H the first rows and columns, by elimination; ∞ where there is no inverse.
+double amplification(const SmallMatrix& matrix, std::size_t size) {
+  SmallMatrix left{};
+  std::array<double, mostVectors> right{1};
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = 0; j < size; ++j)
+      left[i][j] = (i == j ? 1 : 0) - matrix[i][j];
+  for (std::size_t k = 0; k < size; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < size; ++i)
+      pivot = std::abs(left[i][k]) > std::abs(left[pivot][k]) ? i : pivot;
+    std::swap(left[k], left[pivot]);
+    std::swap(right[k], right[pivot]);
+    for (std::size_t i = 0; i < size; ++i) {
+      if (i == k)
+        continue;
+      const double share = left[i][k] / left[k][k];
+      for (std::size_t j = k; j < size; ++j)
+        left[i][j] -= share * left[k][j];
+      right[i] -= share * right[k];
+    }
+  }
+  double squared = 0;
+  for (std::size_t k = 0; k < size; ++k)
+    squared += std::pow(right[k] / left[k][k], 2);
+  return std::isfinite(squared) ? std::sqrt(squared) : std::numeric_limits<double>::infinity();
+}
+
+/// From a direction.
 /// \param share       see FaceResponse::respond
 /// \param numVectors  at least \param numSettled  estimates that hardly differ from those before, in the end
-double arnoldi(FaceResponse& face, const Vector& x, double share, std::size_t numVectors, int numSettled) {
+BoundFeedback arnoldi(FaceResponse& face, const Vector& direction, double share, std::size_t numVectors,
+                      int numSettled) {
   constexpr double hardly = 0.05, roundOff = 1e-20; // of 1 − q, of squares
   std::vector<Vector> basis, images;                // orthonormal in A
   SmallMatrix projected{};                          // T′
-  double factor = 0;
+  BoundFeedback found;
   int settled = 0;
-  face.setMoved(x);
-  face.respond(share);
+  face.start(direction);
   for (std::size_t size = 0; size <= mostVectors; ++size) {
     const double whole = accurateDot(face.moved(), face.image());
     for (std::size_t k = 0; k < size; ++k) {
@@ -169,9 +203,10 @@ double arnoldi(FaceResponse& face, const Vector& x, double share, std::size_t nu
       addScaled(-part, images[k], face.image());
     }
     if (size > 0) {
-      const double last = factor;
-      factor = spectralRadius(projected);
-      settled = std::abs(factor - last) <= hardly * std::abs(1 - factor) ? settled + 1 : 0;
+      const double last = found.factor;
+      found.factor = spectralRadius(projected);
+      found.amplification = amplification(projected, size);
+      settled = std::abs(found.factor - last) <= hardly * std::abs(1 - found.factor) ? settled + 1 : 0;
     }
     const double squared = accurateDot(face.moved(), face.image());
     if ((size >= numVectors && settled >= numSettled) || size == mostVectors ||
@@ -185,20 +220,20 @@ double arnoldi(FaceResponse& face, const Vector& x, double share, std::size_t nu
     images.emplace_back(face.image(), Teuchos::Copy);
     face.respond(share);
   }
-  return factor;
+  found.multiplications = face.multiplications();
+  return found;
 }
 
 } // namespace
 
-BoundFeedback boundFeedback(const QuadraticProgram& program, const Vector& x, const Vector& gradient) {
+BoundFeedback boundFeedback(const QuadraticProgram& program, const Vector& x, const Vector& gradient,
+                            const Vector& direction) {
   constexpr double weak = 0.1, rough = 0.1, fine = 0.01;
   FaceResponse face(program, x, gradient);
   if (!face.follows())
     return {};
-  double factor = arnoldi(face, x, rough, 2, 0);
-  if (!(factor < weak))
-    factor = arnoldi(face, x, fine, 3, 2);
-  return {factor, face.multiplications()};
+  const BoundFeedback found = arnoldi(face, direction, rough, 3, 0);
+  return found.factor < weak ? found : arnoldi(face, direction, fine, 4, 2);
 }
 
 } // namespace epafi::qp

@@ -32,8 +32,8 @@ struct ContactSolution {
   /// preconditioner to measure it by.
   double algebraicError = 0;
   /// With Coulomb's friction q, by which errors of its bounds shrink (qp/solve/BoundFeedback.hpp), and the
-  /// products with F that it took; algebraicError is that with the bounds given, divided by 1 − q, or NaN
-  /// where q ≥ 1.
+  /// products with F that it took; algebraicError is that with the bounds given, times what they make of it,
+  /// 1/(1 − q) at least, or NaN where q ≥ 1.
   double frictionFeedback = 0;
   int feedbackMultiplications = 0;
   bool isEstimated = false; ///< ErrorBalance::estimate was last asked about this solution
