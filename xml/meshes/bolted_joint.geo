@@ -36,6 +36,14 @@ Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeFromCurvature = 0;
 
+curves() = Curve{:}; // circles have as many elements whatever the size: coarse ones of order 2 would fold
+For i In {0:#curves() - 1}
+  around() = BoundingBox Curve{curves(i)};
+  If (around(4) > 1 && around(4) < width - 1)
+    Transfinite Curve{curves(i)} = 9;
+  EndIf
+EndFor
+
 Physical Volume("lower") = {108};
 Physical Volume("upper") = {308};
 Physical Surface("section") = {Surface In BoundingBox{-shank - e, -e, -e, shank + e, shank + e, e}};
