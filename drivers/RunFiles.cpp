@@ -6,6 +6,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/Checkpoint.hpp"
+#include "epafi/output/FieldSteps.hpp"
 #include "epafi/output/Fingerprint.hpp"
 #include "epafi/output/Report.hpp"
 
@@ -60,6 +61,39 @@ std::string tableOf(const std::vector<accuracy::MeshResult>& meshes) {
   return table.str();
 }
 
+/// A line each step and contact.
+std::string tableOf(const std::vector<simulation::StepResult>& steps) {
+  std::ostringstream table;
+  table << "number,step,hessian_multiplications,strain_energy,load_work,dissipation,contact,force,"
+           "resultant_x,resultant_y,resultant_z,largest_pressure,contact_area,tangential_x,tangential_y,"
+           "tangential_z,stick_area,slip_area,open_area,largest_slip,contact_dissipation\n";
+  table.precision(12);
+  const auto quoted = [](std::string name) {
+    for (std::size_t at = name.find('"'); at != std::string::npos; at = name.find('"', at + 2))
+      name.insert(at, 1, '"');
+    return '"' + name + '"';
+  };
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    for (const simulation::ContactResult& contact : steps[k].contacts) {
+      table << k + 1 << ',' << quoted(steps[k].name) << ',' << steps[k].multiplications;
+      for (const double number : {steps[k].strainEnergy, steps[k].loadWork, steps[k].dissipation})
+        table << ',' << number;
+      table << ',' << quoted(contact.name);
+      const auto& [x, y, z] = contact.resultant;
+      for (const double number : {contact.force, x, y, z, contact.largestPressure, contact.area})
+        table << ',' << number;
+      if (const auto& friction = contact.friction)
+        for (const double number : {friction->tangentialForce[0], friction->tangentialForce[1],
+                                    friction->tangentialForce[2], friction->stickArea, friction->slipArea,
+                                    friction->openArea, friction->largestSlip, friction->dissipation})
+          table << ',' << number;
+      else
+        table << ",,,,,,,,";
+      table << '\n';
+    }
+  return table.str();
+}
+
 /// What a stage is.
 std::string stageOf(const simulation::RunResult& result) {
   return result.steps.empty() ? "mesh" : "step";
@@ -92,6 +126,25 @@ bool RunFiles::publish(output::FileSet& files) {
   }
 }
 
+void RunFiles::goOn() {
+  const simulation::StepsDone* const done = watch_.stepsDone();
+  if (done == nullptr)
+    return;
+  numEarlier_ = done->results.size();
+  if (options_.output.empty())
+    return;
+  older_ = std::filesystem::path(options_.restart).parent_path() /
+           (std::filesystem::path(options_.scene).stem().string() + ".h5");
+  steps_ = output::stepsIn(older_, done->results, *comm_);
+  auto there = steps_.begin();
+  for (const simulation::StepResult& step : done->results)
+    if (there != steps_.end() && there->name == step.name)
+      ++there;
+    else
+      lost_.push_back("fields of step \"" + step.name + "\" are not in the files: " + older_.string() +
+                      ", where the run that solved it had them, is not there or has others");
+}
+
 /// All but the checkpoint, which is of the stage that the iteration is on, and says which, get their names
 /// later; reports last.
 void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
@@ -101,7 +154,7 @@ void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
   if (!options_.output.empty()) {
     attempt(watch_.checkpoint(), [&] {
       output::writeCheckpoint(watch_.checkpoint(), output::fingerprintOf(run.decomposition->problem),
-                              *run.solution.multiplier);
+                              *run.solution.multiplier, watch_.stepsDone());
       checkpoint = line("checkpoint", watch_.checkpoint().string());
       return std::string();
     });
@@ -139,11 +192,16 @@ void RunFiles::prepareFields(simulation::SceneRun& run, output::FileSet& files) 
   hasFields_ = false;
   attempt(directory / (name + ".h5"), [&] {
     const auto fields = output::writeFields(directory, name, run.solved(), run.evaluation,
-                                            run.solver->report().history, files, steps_);
+                                            run.solver->report().history, files, steps_, older_);
     hasFields_ = true;
     return line("fields", fields.hdf5.string() + " and " + fields.xdmf.string());
   });
   lines_ += table;
+  if (!steps.empty())
+    attempt(directory / "steps.csv", [&] {
+      files.write(directory / "steps.csv", [&] { return tableOf(steps); });
+      return line("steps", (directory / "steps.csv").string());
+    });
   if (run.result.target)
     attempt(directory / "meshes.csv", [&] {
       files.write(directory / "meshes.csv", [&] { return tableOf(run.result.target->meshes); });
@@ -154,7 +212,7 @@ void RunFiles::prepareFields(simulation::SceneRun& run, output::FileSet& files) 
 void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
   attempt(options_.frd, [&] {
     const std::vector<simulation::StepResult>& steps = run.result.steps;
-    if (steps.size() < 2) // of other meshes before
+    if (steps.size() < numEarlier_ + 2) // of other meshes before
       collectively(*comm_, [&] {
         frd_ = output::FrdFile(comm_->getRank() == 0 ? numberingOf(options_.scene) : output::FrdNumbering());
       });
@@ -170,7 +228,7 @@ void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
 void RunFiles::preparePrints(simulation::SceneRun& run, output::FileSet& files) {
   attempt(options_.dat, [&] {
     const std::size_t numSteps = std::max<std::size_t>(1, run.result.steps.size());
-    if (numSteps == 1)
+    if (numSteps < numEarlier_ + 2)
       collectively(*comm_, [&] { prints_ = DeckPrints(comm_->getRank() == 0 ? options_.scene : ""); });
     prints_.add(run, numSteps - 1);
     files.write(options_.dat, [&] { return prints_.text(); });
@@ -216,6 +274,8 @@ void RunFiles::writeStage(simulation::SceneRun& run) {
   if (failures_.empty() || !run.result.steps.empty()) {
     announce(run);
     hasFields_ = publish(files) && hasFields_;
+    if (hasFields_)
+      older_.clear();
   }
   isOfThisStage_ = failures_.empty();
   hasStage_ = hasStage_ || isOfThisStage_;

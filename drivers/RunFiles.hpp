@@ -28,6 +28,9 @@ public:
   /// \param started  wall time at the start of the run
   RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started);
 
+  /// Load steps that the watch knows as done are not told of again: their fields are those in the file
+  /// beside the checkpoint; which are not there, finish() says.
+  void goOn();
   /// The files of a stage, that is a mesh of several or a load step, in place of those of the stage before:
   /// all, with a report that says that the run goes on, or, of a mesh, none, and the run goes on without, of
   /// which rank 0 tells once. They are put in place together, between a report that says so and the one that
@@ -62,6 +65,8 @@ private:
   bool hasStage_ = false, isOfThisStage_ = false, hasComplained_ = false;
   bool hasFields_ = false;               ///< those of the stage at hand are written
   std::vector<output::FieldStep> steps_; ///< up to the one at hand, but those whose fields are lost
+  std::filesystem::path older_;          ///< HDF5 file of the steps of an earlier run; empty: none
+  std::size_t numEarlier_ = 0;           ///< load steps that an earlier run has done
   output::FrdFile frd_;                  ///< of the mesh at hand, up to the step at hand
   DeckPrints prints_{""};                ///< likewise
   std::string lines_;

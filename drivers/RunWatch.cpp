@@ -4,12 +4,14 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/simulation/StepRun.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
 
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <utility>
 
 namespace epafi::drivers {
@@ -45,10 +47,45 @@ RCP<const Vector> RunWatch::begin(const decomposition::DecomposedProblem& proble
     restart_.reset();
     return lambda;
   } catch (const InputError&) { // on all ranks
-    if (!isSeries_)
+    const bool mayBeOther = isSeries_ || (done_ && done_->changesRows);
+    if (!mayBeOther)
       throw;
-    return Teuchos::null; // of another mesh
+    return Teuchos::null; // of another mesh or step
   }
+}
+
+void RunWatch::expectSteps(const Task& task) {
+  const std::vector<scene::Step>& steps = task.steps;
+  marks_ = task.marks;
+  if (!restart_ || !restart_->steps)
+    return;
+  done_ = std::move(restart_->steps);
+  const auto refuse = [&](const std::string& what) {
+    throw InputError("the checkpoint '" + restart_->file.string() + "' " + what +
+                     "; name the checkpoint of a run of this scene, or start without one");
+  };
+  const std::size_t number = done_->results.size();
+  if (steps.empty())
+    refuse("was written between load steps, and this scene has none");
+  if (done_->marks.size() != number + 1 || done_->marks.front() != marks_.front())
+    refuse("belongs to another scene, or to this one before it was changed");
+  for (std::size_t k = 0; k < number; ++k) {
+    const std::string& name = done_->results[k].name;
+    if (k >= steps.size() || steps[k].name != name)
+      refuse("has done step \"" + name + "\" as number " + std::to_string(k + 1) + ", where this scene has " +
+             (k < steps.size() ? "\"" + steps[k].name + '"' : "no more"));
+    if (done_->marks[k + 1] != marks_[k + 1])
+      refuse("has done step \"" + name + "\" with other words than this scene has for it");
+  }
+  if (number == steps.size())
+    throw InputError("the checkpoint '" + restart_->file.string() + "' has done all " +
+                     std::to_string(number) + " load steps of this scene; add some, or start without it");
+  done_->changesRows = simulation::changesRows(task.scene, steps, number);
+}
+
+void RunWatch::stepDone(const simulation::StepsDone& done) {
+  done_ = done;
+  done_->marks.assign(marks_.begin(), marks_.begin() + 1 + std::ssize(done.results));
 }
 
 void RunWatch::beforeIteration() {
@@ -93,7 +130,7 @@ bool RunWatch::wantsToLook() {
 
 void RunWatch::look(const Vector& lambda) {
   try {
-    output::writeCheckpoint(checkpoint_, fingerprint_, lambda);
+    output::writeCheckpoint(checkpoint_, fingerprint_, lambda, stepsDone());
   } catch (const Error& error) {
     if (speaks_ && !std::exchange(hasComplained_, true))
       std::cerr << "epafi: the run goes on without a checkpoint: " << error.what() << '\n' << std::flush;

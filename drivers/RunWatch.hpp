@@ -3,13 +3,18 @@
 /// What the driver does while a run goes on: lines for people, signals, checkpoints, and the start from one.
 
 #include "Options.hpp"
+#include "Task.hpp"
 #include "epafi/simulation/SceneRun.hpp"
+#include "epafi/simulation/StepsDone.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/Checkpoint.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace epafi::drivers {
 
@@ -31,9 +36,14 @@ public:
   [[nodiscard]] bool wantsToLook() override;
   /// Writes a checkpoint; should that fail, rank 0 says so once, and the run goes on.
   void look(const Vector& lambda) override;
+  [[nodiscard]] const simulation::StepsDone* stepsDone() const override { return done_ ? &*done_ : nullptr; }
+  void stepDone(const simulation::StepsDone& done) override;
 
   /// From now on there are several meshes, and the checkpoint is of one of them: it waits until that comes.
   void expectSeries() { isSeries_ = true; }
+  /// The scene's load steps; those of the checkpoint are done. Not collective. \throws InputError, on all
+  /// ranks alike, if these are others, or of another scene
+  void expectSteps(const Task& task);
   /// Whether the run is to start from a checkpoint, and has not yet.
   [[nodiscard]] bool restarts() const { return restart_.has_value(); }
   /// DIR/checkpoint.epafi; empty without --output.
@@ -50,6 +60,8 @@ private:
   bool speaks_;
   std::filesystem::path checkpoint_;
   std::optional<output::Checkpoint> restart_;
+  std::optional<simulation::StepsDone> done_;
+  std::vector<std::uint64_t> marks_; ///< of the scene's steps
   double interval_, lastCheckpoint_, lastLine_;
   bool tellsProgress_;
   bool hasComplained_ = false, isSeries_ = false;

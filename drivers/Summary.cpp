@@ -116,6 +116,9 @@ void describeSolution(std::ostream& text, const RunResult& result) {
        << solve.normMultiplications << " to estimate its norm): " << solve.counts.conjugateGradient
        << " CG + " << solve.counts.expansion << " expansion + " << solve.counts.proportioning
        << " proportioning steps, " << solve.counts.outer << " outer\n";
+  if (result.feedback)
+    text << "              friction's bounds feed back by a factor of " << rounded(result.feedback->factor)
+         << " (" << counted(result.feedback->multiplications, "more product") << ")\n";
 }
 
 void describeQuantity(std::ostream& text, const simulation::Quantity& quantity) {

@@ -3,6 +3,8 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
 #include "epafi/deck/DeckModel.hpp"
+#include "epafi/output/Checkpoint.hpp"
+#include "epafi/scene/ParameterFile.hpp"
 #include "epafi/scene/SceneReader.hpp"
 #include "epafi/simulation/AccurateRun.hpp"
 #include "epafi/simulation/StepRun.hpp"
@@ -28,6 +30,24 @@ void requireOneOfBoth(const std::string& file, const Task& task) {
                      "\"Accuracy\": load steps are solved on the mesh that is given; leave out one of them.");
 }
 
+std::uint64_t markOf(const Teuchos::ParameterList& list) {
+  const std::string text = scene::xmlText(list);
+  output::Checksum sum;
+  sum.add(text.data(), text.size());
+  return sum.value();
+}
+
+/// What is solved, not how.
+std::vector<std::uint64_t> marksOf(Teuchos::ParameterList list, const std::vector<scene::Step>& steps) {
+  const Teuchos::ParameterList all = list.sublist("Steps");
+  for (const char* const other : {"Title", "Solver", "Accuracy", "Steps"})
+    list.remove(other, false);
+  std::vector<std::uint64_t> marks{markOf(list)};
+  for (const scene::Step& step : steps)
+    marks.push_back(markOf(all.sublist(step.name)));
+  return marks;
+}
+
 } // namespace
 
 Task readTask(const Teuchos::ParameterList& given, const std::string& file) {
@@ -37,6 +57,8 @@ Task readTask(const Teuchos::ParameterList& given, const std::string& file) {
   task.solver = list.sublist("Solver");
   task.accuracy = simulation::AccuracyParameters::from(list.sublist("Accuracy"));
   requireOneOfBoth(file, task);
+  if (!task.steps.empty())
+    task.marks = marksOf(given, task.steps);
   return task;
 }
 

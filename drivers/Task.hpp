@@ -8,6 +8,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct Task {
   std::vector<scene::Step> steps;
   Teuchos::ParameterList solver{}; ///< validated
   simulation::AccuracyParameters accuracy{};
+  /// Of a scene with load steps: numbers that tell what is solved from other scenes, of the scene without
+  /// them and of each step (simulation::StepsDone::marks).
+  std::vector<std::uint64_t> marks{};
 };
 
 /// \param given  all of a scene, in the schema of simulation::driverSchema()

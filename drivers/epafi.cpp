@@ -72,6 +72,12 @@ simulation::SceneRun solveAsAsked(const Task& task, const RCP<const Comm>& comm,
   const bool isSeries = task.accuracy.target > 0;
   if (isSeries)
     watch.expectSeries();
+  watch.expectSteps(task);
+  files.goOn();
+  if (const simulation::StepsDone* const done = watch.stepsDone(); done != nullptr && speaks)
+    std::cout << "  restart     after step " << done->results.back().name << ", " << done->results.size()
+              << " of " << task.steps.size() << '\n'
+              << std::flush;
   simulation::SceneRun run =
       solveTask(task, comm, &watch,
                 {.mesh = [&](const accuracy::MeshResult& mesh, auto& stage) { tell(stage, mesh); },

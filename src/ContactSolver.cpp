@@ -6,6 +6,7 @@
 #include "epafi/base/Parameters.hpp"
 #include "epafi/fetidp/equilibrium/ProblemChecks.hpp"
 #include "epafi/fetidp/solve/Recovery.hpp"
+#include "epafi/qp/solve/BoundFeedback.hpp"
 
 #include <Teuchos_Time.hpp>
 #include <Tpetra_Map.hpp>
@@ -126,6 +127,8 @@ fetidp::ContactSolution ContactSolver::solve(const decomposition::ProblemData& d
     settle(data, dual, interruption, solution);
   solution.algebraicError = algebraicErrorOf(data, solution);
   confirm(solution, dual.errorTarget);
+  if (data.hasCoulombFriction())
+    measureFeedback(data, solution);
   times_.recovery = longest(*problem_->comm, recoveryStart);
   return solution;
 }
@@ -167,6 +170,31 @@ double ContactSolver::algebraicErrorOf(const decomposition::ProblemData& data,
   const double springs = sumOverRanks(*problem_->comm, takenBySprings(*problem_->compliance, gradient));
   dual_->preconditioner()->apply(gradient, image);
   return std::sqrt(std::min(whole, 2 * (springs + std::max(0.0, accurateDot(gradient, image)))));
+}
+
+/// With Coulomb's friction the error of the bounds is one of the solution, too.
+void ContactSolver::measureFeedback(const decomposition::ProblemData& data,
+                                    fetidp::ContactSolution& solution) const {
+  if (run_.purpose == fetidp::Purpose::start || report_.status == qp::Status::interrupted ||
+      report_.status == qp::Status::timeLimit || report_.status == qp::Status::notFinite)
+    return;
+  qp::QuadraticProgram program;
+  program.hessian = dual_->operators().flexibility();
+  program.preconditioner = dual_->operators().facePreconditioner;
+  program.equality = dual_->coarseSpace();
+  program.setAt = [&](const Vector& lambda) { return dual_->feasibleForces(data, lambda); };
+  Vector error(solution.slack->getMap()), gradient(error.getMap()); // with the bounds given, about
+  program.setAt(*solution.multiplier)
+      ->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
+  if (const RCP<const Operator> m = program.preconditioner; m.is_null() || gradient.normInf() == 0)
+    error.update(1.0, gradient.normInf() == 0 ? *solution.multiplier : gradient, 0.0);
+  else
+    m->apply(gradient, error);
+  const qp::BoundFeedback feedback = qp::boundFeedback(program, *solution.multiplier, *solution.slack, error);
+  solution.frictionFeedback = feedback.factor;
+  solution.feedbackMultiplications = feedback.multiplications;
+  solution.algebraicError *= feedback.factor < 1 ? std::max(feedback.amplification, 1 / (1 - feedback.factor))
+                                                 : std::numeric_limits<double>::quiet_NaN();
 }
 
 namespace {

@@ -1,5 +1,5 @@
 """Friction beside closed forms: tractions along a contact from friction_traction.csv, and force over displacement of steps from
-friction_loop.csv."""
+friction_loop.csv and friction_joint.csv."""
 
 import matplotlib.pyplot as pyplot
 import numpy
@@ -38,16 +38,20 @@ def loop(file, rows):
     picture, axes = pyplot.subplots(figsize=(8.2, 5.4))
     axes.axhline(0, color=style.GREY, linewidth=0.8)
     axes.axvline(0, color=style.GREY, linewidth=0.8)
-    axes.plot(displacement[~computed], force[~computed], color=style.BLACK, linewidth=1.3, label="closed form of a thin strip")
+    if not computed.all():
+        axes.plot(displacement[~computed], force[~computed], color=style.BLACK, linewidth=1.3, label="closed form of a thin strip")
     u, f = displacement[computed], force[computed]
-    axes.plot(u, f, "o", color=style.VERMILLION, markersize=6, clip_on=False, label="computed, a mark each load step")
+    axes.plot(u, f, "o-" if computed.all() else "o", color=style.VERMILLION, markersize=6, clip_on=False,
+              label="computed, a mark each load step")
     turns = [0] + [k for k in range(1, len(u) - 1) if (u[k + 1] - u[k]) * (u[k] - u[k - 1]) < 0]
-    for k in turns:
+    for number, k in enumerate(turns):
+        if any(abs(u[k] - u[j]) < 0.02 * numpy.ptp(u) and abs(f[k] - f[j]) < 0.02 * numpy.ptp(f) for j in turns[:number]):
+            continue  # there is a name already
         offset, side = ((-8, 8), "right") if u[k] >= u.max() else ((8, -16), "left")
         axes.annotate(names[k], (u[k], f[k]), offset, textcoords="offset points", ha=side, fontsize=10)
     axes.margins(y=0.12)
     axes.set_xlabel("displacement of the pulled end [mm]")
-    axes.set_ylabel("force of friction [N/mm]")
+    axes.set_ylabel("force of friction [N/mm]" if file.stem == "friction_loop" else "force that pulls [N]")
     axes.legend(loc="upper left")
-    axes.set_title("Clamped strap: force over displacement")
+    axes.set_title(("Clamped strap" if file.stem == "friction_loop" else "Bolted joint") + ": force over displacement")
     return picture

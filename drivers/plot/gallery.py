@@ -7,7 +7,7 @@ from .run import read_run
 from .style import Canvas
 
 STUDIES = ("accuracy.csv", "tables.csv", "qp.csv", "scaling.csv", "stability.csv", "heterogeneity.csv", "hertz.csv",
-           "spectra.csv", "targets.csv", "meshes.csv", "friction_traction.csv", "friction_loop.csv")
+           "spectra.csv", "targets.csv", "meshes.csv", "friction_traction.csv", "friction_loop.csv", "friction_joint.csv")
 
 
 def draw(source, output, extension, dpi, box=None, step=None):

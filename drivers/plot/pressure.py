@@ -1,4 +1,4 @@
-"""Contact pressure on a surface: of a body in space, or of a membrane over an obstacle."""
+"""Contact pressure on a surface, and what of it sticks: of a body in space, or of a membrane over an obstacle."""
 
 import matplotlib.pyplot as pyplot
 import numpy
@@ -105,9 +105,15 @@ def fan(place, facets, *values):
     return (Triangulation(*every.T, triangles), *(numpy.concatenate([value, value[facets].mean(axis=1)]) for value in values))
 
 
+def sticking(pair):
+    """Where friction holds, or nothing without."""
+    return pair.friction_state == 2 if pair.friction_state is not None else numpy.zeros(len(pair.points), bool)
+
+
 def draw_facets(axes, place, pair, seen):
     shown_cells = seen.shown(pair.cells, place)
-    triangulation, shades, closed = fan(place, shown_cells, numpy.maximum(pair.pressure, 0.0), pair.active.astype(float))
+    triangulation, shades, closed, sticks = fan(place, shown_cells, numpy.maximum(pair.pressure, 0.0), pair.active.astype(float),
+                                                sticking(pair).astype(float))
     largest = float(pair.pressure.max())
     shown = axes.tripcolor(triangulation, shades, shading="gouraud",
                            cmap="YlOrRd", vmin=0, vmax=largest if largest > 0 else 1.0, rasterized=True)
@@ -121,6 +127,8 @@ def draw_facets(axes, place, pair, seen):
         axes.add_collection(LineCollection(others[ends], colors=style.GREEN, linewidths=0.4, alpha=0.7))
     if pair.active.any() and not pair.active.all():
         axes.tricontour(triangulation, closed, levels=[0.5], colors=[style.BLUE], linewidths=1.8)
+    if sticking(pair).any() and not sticking(pair).all():
+        axes.tricontour(triangulation, sticks, levels=[0.5], colors=[style.BLACK], linewidths=1.8, linestyles="--")
     return shown
 
 
@@ -146,8 +154,13 @@ def figure(run, pair):
     handles = []
     if draw is draw_facets and pair.active.any() and not pair.active.all():
         handles.append(Line2D([], [], color=style.BLUE, linewidth=1.8, label="boundary of the active set"))
+    if draw is draw_facets and sticking(pair).any() and not sticking(pair).all():
+        handles.append(Line2D([], [], color=style.BLACK, linewidth=1.8, linestyle="--", label="boundary of what sticks"))
     if draw is draw_facets and pair.facing is not None:
         handles.append(Line2D([], [], color=style.GREEN, linewidth=0.8, label="mesh of the other side"))
+    if pair.friction_state is not None:
+        axes.set_title(axes.get_title() + f"\n{int(sticking(pair).sum())} nodes stick, {int((pair.friction_state == 1).sum())} slip",
+                       fontsize=12)
     if handles:
         axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=style.below(picture, axes),
                     ncols=len(handles))

@@ -39,17 +39,21 @@ std::string TiedNodes::nameBetween(int body, int other) const {
 void TiedNodes::dropFrom(ContactLayout& contact) const {
   const auto isHeld = heldBetween(contact.firstBody, contact.secondBody),
              isOtherHeld = heldBetween(contact.secondBody, contact.firstBody);
-  if (!isHeld)
+  if (!isHeld && !isOtherHeld)
     return;
+  const auto isTied = [&](GlobalOrdinal own, const auto& shares) {
+    return (isHeld && isHeld(own)) ||
+           (isOtherHeld && std::all_of(shares.begin(), shares.end(), [&](const contact::NodeShare& share) {
+              return isOtherHeld(share.node);
+            }));
+  };
   std::vector<std::size_t> kept;
   std::string names;
   for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
     const GlobalOrdinal own = contact.firstNodes[row];
     const auto& shares = contact.secondNodes[row];
     const GlobalOrdinal other = shares.front().node;
-    if (!isHeld(own) && !std::all_of(shares.begin(), shares.end(), [&](const contact::NodeShare& share) {
-          return isOtherHeld(share.node);
-        })) {
+    if (!isTied(own, shares)) {
       kept.push_back(row);
       continue;
     }

@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Slab.hpp"
 #include "epafi/output/AtomicFile.hpp"
+#include "epafi/output/StepsText.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Import.hpp>
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 /// No header is longer.
 constexpr std::size_t longestHeader = 1024;
 constexpr std::string_view title = "Epafi checkpoint ";
-constexpr std::string_view version = "1";
+constexpr std::string_view version = "2";
 constexpr std::string_view order = std::endian::native == std::endian::little ? "little" : "big";
 
 /// Counts in the order of the file.
@@ -90,6 +91,7 @@ private:
 
 struct Header {
   Fingerprint fingerprint;
+  std::size_t steps = 0;  ///< bytes of what tells of load steps
   std::size_t length = 0; ///< of the text, the empty line included
 };
 
@@ -116,6 +118,9 @@ Header parsed(std::string_view text) {
   header.fingerprint.stiffness = lines.numberOf<double>("stiffness");
   if (!std::isfinite(header.fingerprint.stiffness))
     Lines::refuse("stiffness");
+  header.steps = lines.numberOf<std::size_t>("steps");
+  if (header.steps > std::size_t{most})
+    Lines::refuse("steps");
   if (!lines.next().empty())
     throw InputError("has a head that does not end");
   header.length = title.size() + lines.place();
@@ -142,25 +147,31 @@ Checkpoint readOnThisRank(const fs::path& file) {
   text.resize(take(text.data(), text.size()));
   const Header header = parsed(text);
   std::uint64_t stored = 0;
-  const auto expected = header.length + sizeof stored + sizeof(double) * header.fingerprint.numMultipliers();
+  const auto expected =
+      header.length + sizeof stored + header.steps + sizeof(double) * header.fingerprint.numMultipliers();
   if (const std::uintmax_t size = fs::file_size(file, error); size != expected)
     throw InputError("has " + std::to_string(size) + " bytes instead of " + std::to_string(expected) +
                      (size < expected ? ": it is cut off" : ": something was added to it"));
-  Checkpoint checkpoint{file, header.fingerprint, {}};
+  Checkpoint checkpoint{file, header.fingerprint, {}, {}};
   std::vector<double>& values = checkpoint.values;
   values.resize(header.fingerprint.numMultipliers());
   stream.clear();
   stream.seekg(header.length);
   const std::size_t bytes = values.size() * sizeof(double);
-  if (take(values.data(), bytes) != bytes || take(&stored, sizeof stored) != sizeof stored)
+  std::string steps(header.steps, '\0');
+  if (take(values.data(), bytes) != bytes || take(steps.data(), steps.size()) != steps.size() ||
+      take(&stored, sizeof stored) != sizeof stored)
     throw InputError("cannot be read to its end");
   if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
     throw InputError("holds a number that is not finite");
   Checksum checksum;
   checksum.add(text.data(), header.length);
   checksum.add(values.data(), bytes);
+  checksum.add(steps.data(), steps.size());
   if (stored != checksum.value())
     throw InputError("is damaged: its checksum is wrong");
+  if (!steps.empty())
+    checkpoint.steps = stepsOf(steps);
   return checkpoint;
 }
 
@@ -177,16 +188,17 @@ void about(const fs::path& file, const Work& work) {
 
 } // namespace
 
-std::string checkpointHeader(const Fingerprint& fingerprint) {
+std::string checkpointHeader(const Fingerprint& fingerprint, std::size_t length) {
   std::string text(title);
   text.append(version).append("\norder ").append(order).append("\n");
   for (const auto& [name, member] : counts)
     text.append(name).append(" ").append(textOf(fingerprint.*member)).append("\n");
   return text + "rows " + textOf(fingerprint.rows, 16) + "\nstiffness " + textOf(fingerprint.stiffness) +
-         "\n\n";
+         "\nsteps " + textOf(length) + "\n\n";
 }
 
-void writeCheckpoint(const fs::path& file, const Fingerprint& fingerprint, const Vector& lambda) {
+void writeCheckpoint(const fs::path& file, const Fingerprint& fingerprint, const Vector& lambda,
+                     const simulation::StepsDone* steps) {
   const RCP<const Comm> comm = lambda.getMap()->getComm();
   const RCP<const Map> inOrder = slabMap(fingerprint.numMultipliers(), comm);
   Vector ordered(inOrder);
@@ -197,8 +209,10 @@ void writeCheckpoint(const fs::path& file, const Fingerprint& fingerprint, const
   writeTextFile(
       file,
       [&] {
-        std::string text = checkpointHeader(fingerprint);
+        const std::string done = steps != nullptr ? stepsText(*steps) : std::string();
+        std::string text = checkpointHeader(fingerprint, done.size());
         text.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+        text.append(done);
         Checksum checksum;
         checksum.add(text.data(), text.size());
         const std::uint64_t seal = checksum.value();
@@ -208,7 +222,7 @@ void writeCheckpoint(const fs::path& file, const Fingerprint& fingerprint, const
 }
 
 Checkpoint readCheckpoint(const fs::path& file, const Comm& comm) {
-  Checkpoint checkpoint{file, {}, {}};
+  Checkpoint checkpoint{file, {}, {}, {}};
   collectively(comm, [&] {
     about(file, [&] {
       if (comm.getRank() == 0)
@@ -217,6 +231,9 @@ Checkpoint readCheckpoint(const fs::path& file, const Comm& comm) {
   });
   Teuchos::broadcast(comm, 0, static_cast<int>(sizeof(Fingerprint)),
                      reinterpret_cast<char*>(&checkpoint.fingerprint));
+  const std::string steps = agreedText(comm, checkpoint.steps ? stepsText(*checkpoint.steps) : std::string());
+  if (!checkpoint.steps && !steps.empty())
+    checkpoint.steps = stepsOf(steps);
   return checkpoint;
 }
 

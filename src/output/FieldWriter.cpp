@@ -5,11 +5,11 @@
 #include "epafi/output/BodyFields.hpp"
 #include "epafi/output/ContactFields.hpp"
 #include "epafi/output/Hdf5File.hpp"
+#include "epafi/output/SafeNames.hpp"
 #include "epafi/output/Xdmf.hpp"
 #include "epafi/simulation/JointResults.hpp"
 
 #include <algorithm>
-#include <set>
 #include <span>
 
 namespace epafi::output {
@@ -295,29 +295,7 @@ std::vector<XdmfStep> inGroups(const std::vector<FieldStep>& steps) {
   return result;
 }
 
-bool isSafe(char letter) {
-  const auto code = static_cast<unsigned char>(letter);
-  return (code >= '0' && code <= '9') || (code >= 'A' && code <= 'Z') || (code >= 'a' && code <= 'z') ||
-         letter == '_' || letter == '-' || letter == '.' || code >= 0x80;
-}
-
 } // namespace
-
-std::vector<std::string> safeNames(const std::vector<std::string>& names) {
-  std::vector<std::string> result;
-  std::set<std::string> taken;
-  for (std::string name : names) {
-    std::replace_if(
-        name.begin(), name.end(), [](char letter) { return !isSafe(letter); }, '_');
-    if (name.find_first_not_of('.') == std::string::npos)
-      name = "unnamed";
-    std::string candidate = name;
-    for (int number = 2; !taken.insert(candidate).second; ++number)
-      candidate = name + "_" + std::to_string(number);
-    result.push_back(candidate);
-  }
-  return result;
-}
 
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
@@ -330,7 +308,8 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
 
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
-                       const qp::History& history, FileSet& together, const std::vector<FieldStep>& steps) {
+                       const qp::History& history, FileSet& together, const std::vector<FieldStep>& steps,
+                       const std::filesystem::path& older) {
   if (name.empty() || name.find('/') != std::string::npos) // the same on all ranks
     throw InputError("'" + name + "' is no name for an output file; it must not be empty nor contain '/'.");
   const auto& problem = solved.decomposition.problem;
@@ -338,7 +317,11 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
   FieldFiles files{directory / (name + ".h5"), directory / (name + ".xdmf")};
 
   Hdf5File file(files.hdf5, problem.comm,
-                steps.size() > 1 ? Hdf5File::Content::older : Hdf5File::Content::none);
+                steps.size() < 2 ? std::filesystem::path()
+                : older.empty()  ? files.hdf5
+                                 : older);
+  if (steps.size() > 1)
+    file.removeAllBut("/steps", groupNames(std::vector(steps.begin(), steps.end() - 1)));
   putHead(file, solved.decomposition, solved.solution);
   FieldGroup whole{file, "", ""};
   const std::vector<XdmfGrid> grids = steps.empty() ? putFields(whole, solved, evaluation, history)

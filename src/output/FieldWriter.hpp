@@ -70,15 +70,12 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
                        const qp::History& history);
 /// The same, for files that get their names with others of `together`, of which there is none if it throws.
 /// \param steps  the load steps whose fields are in the files then, the solution's as the last one; those
-/// before are in the HDF5 file that is there, which is copied. None: the scene has no steps.
+/// before are in the HDF5 file that is there, which is copied, without any other steps. None: the scene has
+/// no steps.
+/// \param older  the HDF5 file with those before, if it is another one than that which is there
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
                        const qp::History& history, FileSet& together,
-                       const std::vector<FieldStep>& steps = {});
-
-/// Names that are safe in HDF5 and XDMF paths, one for each name, all different: letters, digits, '_', '-',
-/// '.' and anything beyond ASCII stay, every other character ('/', ':', blanks, quotes, …) becomes '_'. A
-/// name of dots alone or an empty one becomes "unnamed". Names that would coincide get "_2", "_3", …
-std::vector<std::string> safeNames(const std::vector<std::string>& names);
+                       const std::vector<FieldStep>& steps = {}, const std::filesystem::path& older = {});
 
 } // namespace epafi::output

@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/RawCommunicator.hpp"
 #include "epafi/output/AtomicFile.hpp"
+#include "epafi/output/Hdf5Handle.hpp"
 
 #include <hdf5.h>
 
@@ -21,40 +22,6 @@ static_assert(std::is_same_v<hid_t, std::int64_t>, "Hdf5File stores HDF5's ident
 /// attribute take.
 constexpr std::uintmax_t bytesOfFile = 16384;
 constexpr std::uintmax_t bytesOfObject = 2048;
-
-/// Keeps HDF5 from printing its errors, for as long as it lives; what the application had set comes back.
-class QuietHdf5 {
-public:
-  QuietHdf5() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-  QuietHdf5(const QuietHdf5&) = delete;
-  QuietHdf5& operator=(const QuietHdf5&) = delete;
-
-private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
-
-/// An HDF5 identifier that closes itself.
-class Handle {
-public:
-  using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0)
-      close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; } // NOLINT(google-explicit-constructor): stands for the identifier
-
-private:
-  hid_t id_;
-  Close close_;
-};
 
 /// Descriptions on HDF5's error stack: what its call failed to do, and the innermost cause.
 std::string hdf5Reason() {
@@ -101,7 +68,7 @@ std::uintmax_t bytesOfPath(const std::string& path) {
   return bytesOfObject * (1 + std::count(path.begin(), path.end(), '/'));
 }
 
-hid_t openFile(const std::filesystem::path& temporary, Hdf5File::Content content, MPI_Comm comm) {
+hid_t openFile(const std::filesystem::path& temporary, bool isCopy, MPI_Comm comm) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   checked(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), temporary, "choosing parallel access");
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -109,9 +76,28 @@ hid_t openFile(const std::filesystem::path& temporary, Hdf5File::Content content
   // The temporary is ours alone, and some file systems know no locks.
   H5Pset_file_locking(access, false, true);
 #endif
-  if (content == Hdf5File::Content::older)
+  if (isCopy)
     return checked(H5Fopen(temporary.c_str(), H5F_ACC_RDWR, access), temporary, "opening it");
   return checked(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), temporary, "creating it");
+}
+
+/// Names in a group.
+std::vector<std::string> linksOf(hid_t file, const std::filesystem::path& path, const std::string& group) {
+  const Handle opened(checked(H5Gopen2(file, group.c_str(), H5P_DEFAULT), path, "opening group", group),
+                      H5Gclose);
+  H5G_info_t info{};
+  checked(H5Gget_info(opened, &info), path, "looking into group", group);
+  std::vector<std::string> names;
+  for (hsize_t k = 0; k < info.nlinks; ++k) {
+    const auto get = [&](char* text, std::size_t size) {
+      return checked(H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, k, text, size, H5P_DEFAULT),
+                     path, "looking into group", group);
+    };
+    std::string name(get(nullptr, 0), '\0');
+    get(name.data(), name.size() + 1);
+    names.push_back(std::move(name));
+  }
+  return names;
 }
 
 hid_t createDataset(hid_t file, const std::filesystem::path& path, const std::string& name, hid_t type,
@@ -148,17 +134,19 @@ void writeRows(hid_t dataset, const std::filesystem::path& path, const std::stri
 
 } // namespace
 
-Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm, Content content)
+Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm,
+                   const std::filesystem::path& from)
     : path_(path), comm_(comm), exceptions_(std::uncaught_exceptions()) {
   prepareTarget(path, *comm);
   temporary_ = temporaryBeside(path, *comm);
   const QuietHdf5 quiet;
   try {
     // HDF5 would wait for a rank that cannot open it.
-    createForAll(temporary_, *comm, content == Content::older ? path : std::filesystem::path());
+    createForAll(temporary_, *comm, from);
     collectively(*comm, [&] {
       reserved_ = std::filesystem::file_size(temporary_);
-      file_ = openFile(temporary_, content, comm->getSize() > 1 ? rawCommunicator(*comm) : MPI_COMM_SELF);
+      file_ =
+          openFile(temporary_, !from.empty(), comm->getSize() > 1 ? rawCommunicator(*comm) : MPI_COMM_SELF);
     });
     reserve(bytesOfFile);
   } catch (const Error&) {
@@ -282,6 +270,18 @@ void Hdf5File::link(const std::string& name, const std::string& object) {
         checked(H5Ldelete(file_, name.c_str(), H5P_DEFAULT), path_, "taking away the name", name);
       checked(H5Lcreate_hard(file_, object.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_,
               "giving the name", name);
+    });
+  });
+}
+
+void Hdf5File::removeAllBut(const std::string& group, const std::vector<std::string>& names) {
+  together([&] {
+    const QuietHdf5 quiet;
+    collectively(*comm_, [&] {
+      for (const std::string& name : linksOf(file_, path_, group))
+        if (std::find(names.begin(), names.end(), name) == names.end())
+          checked(H5Ldelete(file_, (group + '/' + name).c_str(), H5P_DEFAULT), path_, "taking away the name",
+                  name);
     });
   });
 }

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace epafi::output {
 
@@ -27,12 +28,11 @@ namespace epafi::output {
 /// that has initialised MPI.
 class Hdf5File {
 public:
-  /// What a file begins with: nothing, or all that the older one of its name has.
-  enum class Content { none, older };
-
   /// Opens the temporary.
+  /// \param from  a file that it begins as a copy of, perhaps the older one of its name; empty: with nothing
   /// \throws InputError if the directory cannot be made or written to, Error if HDF5 refuses.
-  Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm, Content content = Content::none);
+  Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm,
+           const std::filesystem::path& from = {});
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -50,6 +50,9 @@ public:
 
   /// Gives a group or dataset that exists one more name, which another one may have had. \throws Error.
   void link(const std::string& name, const std::string& object);
+
+  /// Takes away the names in a group but these; what has no other is gone. \throws Error.
+  void removeAllBut(const std::string& group, const std::vector<std::string>& names);
 
   /// Attribute of a group or dataset that exists ("/" is the file itself); an older one of the name goes.
   /// \throws Error.

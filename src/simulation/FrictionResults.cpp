@@ -102,7 +102,18 @@ FrictionResult frictionResult(const SolvedScene& solved, const ContactLayout& co
   const RowTangents tangents(solved, contact);
   const auto force = solved.solution.multiplier->getData(), slack = solved.solution.slack->getData(),
              active = solved.solution.active->getData();
-  enum Term : std::size_t { tangential, moment = 3, stick = 6, slip, work, numTerms };
+  enum Term : std::size_t {
+    tangential,
+    normal = 3,
+    moment = 6,
+    turning = 9,
+    centre = 12,
+    stick = 15,
+    slip,
+    open,
+    work,
+    numTerms
+  };
   std::array<AccurateSum, numTerms> sums;
   double largest = 0;
   const double sign = signOf(solved, contact);
@@ -118,28 +129,45 @@ FrictionResult frictionResult(const SolvedScene& solved, const ContactLayout& co
       slipped -= slack[node.firstTangent + k] * tangents.at(row, k);
       sums[work].add(-portion * force[node.firstTangent + k] * slack[node.firstTangent + k]);
     }
-    const Point point = mesh.point(contact.firstNodes[row]);
-    const Vector3d whole = force[node.contact] * contact.spatialDirectionOf(row) + along,
-                   turning = Vector3d(point[0], point[1], point[2]).cross(whole);
+    const Vector3d point(mesh.point(contact.firstNodes[row]).data()),
+        pressing = force[node.contact] * contact.spatialDirectionOf(row);
+    const Vector3d both = point.cross(pressing + along), alone = point.cross(along);
     for (Eigen::Index d = 0; d < 3; ++d) {
       if (solved.isOfRevolution() && d != 1)
         continue; // what goes round balances itself
       sums[tangential + d].add(sign * portion * along[d]);
-      sums[moment + d].add(sign * portion * turning[d]);
+      sums[normal + d].add(sign * portion * pressing[d]);
+      sums[moment + d].add(sign * portion * both[d]);
+      sums[turning + d].add(sign * portion * alone[d]);
+      sums[centre + d].add(portion > 0 ? areas[row] * point[d] : 0);
     }
-    if (active[node.contact] > 0.5 && portion > 0) {
-      sums[active[node.firstTangent] > 0.5 ? stick : slip].add(areas[row]);
+    if (portion > 0)
+      sums[active[node.contact] < 0.5        ? open
+           : active[node.firstTangent] > 0.5 ? stick
+                                             : slip]
+          .add(areas[row]);
+    if (active[node.contact] > 0.5 && portion > 0)
       largest = std::max(largest, slipped.norm());
-    }
   }
   sumOverRanks(solved.comm(), sums);
   FrictionResult result;
-  for (std::size_t d = 0; d < 3; ++d) {
-    result.tangentialForce[d] = sums[tangential + d].value();
-    result.moment[d] = sums[moment + d].value();
-  }
+  const auto three = [&](Term first) {
+    return Vector3d(sums[first].value(), sums[first + 1].value(), sums[first + 2].value());
+  };
+  const auto entered = [](const Vector3d& values) {
+    return std::array<double, 3>{values[0], values[1], values[2]};
+  };
   result.stickArea = sums[stick].value();
   result.slipArea = sums[slip].value();
+  result.openArea = sums[open].value();
+  const double area = result.stickArea + result.slipArea + result.openArea;
+  const Vector3d middle = area > 0 ? Vector3d(three(centre) / area) : Vector3d::Zero();
+  result.tangentialForce = entered(three(tangential));
+  result.moment = entered(three(moment));
+  result.tangentialMoment = entered(three(turning));
+  result.centre = entered(middle);
+  result.centreMoment = entered(three(moment) - middle.cross(three(normal) + three(tangential)));
+  result.centreTangential = entered(three(turning) - middle.cross(three(tangential)));
   result.dissipation = sums[work].value();
   result.largestSlip = maxOverRanks(solved.comm(), largest);
   return result;

@@ -14,9 +14,12 @@ namespace epafi::simulation {
 struct FrictionResult {
   std::array<double, 3> tangentialForce{}; ///< Σ λ_t
   std::array<double, 3> moment{}; ///< of pressure and friction about the origin, per thickness in the plane
-  double stickArea = 0, slipArea = 0; ///< of closed nodes
-  double dissipation = 0;             ///< Σ λ_tᵀw, w what a node slips
-  double largestSlip = 0;             ///< |w| of a closed node
+  std::array<double, 3> tangentialMoment{};                 ///< of friction alone
+  std::array<double, 3> centre{};                           ///< of the surface that may touch, by area
+  std::array<double, 3> centreMoment{}, centreTangential{}; ///< those two about the centre
+  double stickArea = 0, slipArea = 0, openArea = 0;         ///< of closed nodes, and of the others
+  double dissipation = 0;                                   ///< Σ λ_tᵀw, w what a node slips
+  double largestSlip = 0;                                   ///< |w| of a closed node
 };
 
 /// How a node of a contact with friction is.

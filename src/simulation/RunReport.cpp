@@ -50,6 +50,12 @@ void enterSolve(const SolveFacts& solve, ParameterList& list) {
       .set("Preconditioner Applications", solve.counts.preconditionerApplications);
 }
 
+void enterFeedback(const std::optional<FrictionFeedback>& feedback, ParameterList& list) {
+  if (feedback)
+    list.set("Friction Feedback", feedback->factor)
+        .set("Friction Feedback Multiplications", feedback->multiplications);
+}
+
 void enterAccuracy(const RunResult& result, ParameterList& list) {
   list.set("Relative Projected Gradient", result.relativeProjectedGradient)
       .set("Feasibility", result.feasibility)
@@ -60,6 +66,7 @@ void enterAccuracy(const RunResult& result, ParameterList& list) {
       .set("Contact Force", result.contactForce)
       .set("Strain Energy", result.energy + result.loadWork)
       .set("Load Work", result.loadWork);
+  enterFeedback(result.feedback, list);
   if (std::isfinite(result.algebraicError))
     list.set("Algebraic Error", result.algebraicError);
   if (result.error)
@@ -122,8 +129,13 @@ void enterFriction(const ContactResult& contact, ParameterList& list) {
   list.set("Normal Force", contact.force)
       .set("Tangential Force", arrayOf(contact.friction->tangentialForce))
       .set("Moment", arrayOf(contact.friction->moment))
+      .set("Tangential Moment", arrayOf(contact.friction->tangentialMoment))
+      .set("Centre", arrayOf(contact.friction->centre))
+      .set("Moment about Centre", arrayOf(contact.friction->centreMoment))
+      .set("Tangential Moment about Centre", arrayOf(contact.friction->centreTangential))
       .set("Stick Area", contact.friction->stickArea)
       .set("Slip Area", contact.friction->slipArea)
+      .set("Open Area", contact.friction->openArea)
       .set("Dissipation", contact.friction->dissipation)
       .set("Largest Slip", contact.friction->largestSlip);
 }
@@ -176,6 +188,7 @@ void enterStep(const StepResult& step, ParameterList& list) {
       .set("Dissipation", step.dissipation)
       .set("Converged", step.status == RunStatus::converged)
       .set("Reason", step.reason);
+  enterFeedback(step.feedback, list);
   for (const ContactResult& contact : step.contacts)
     enterContact(contact, list.sublist("Contact").sublist(contact.name));
   enterSupports(step.supports, list);

@@ -66,6 +66,13 @@ struct TargetResult {
   std::string choiceOfOrder;                ///< why this order; empty if it was given
 };
 
+/// With Coulomb's friction: the factor q by which errors of its bounds shrink, and the products with F that
+/// tell.
+struct FrictionFeedback {
+  double factor = 0;
+  int multiplications = 0;
+};
+
 /// What a load step has come to.
 struct StepResult {
   std::string name;
@@ -76,7 +83,8 @@ struct StepResult {
   std::vector<SupportResult> supports;
   std::vector<PreloadResult> preloads;
   RunStatus status = RunStatus::notConverged;
-  std::string reason; ///< one sentence
+  std::string reason;                                      ///< one sentence
+  std::optional<FrictionFeedback> feedback = std::nullopt; ///< with Coulomb's friction
 };
 
 /// All of it.
@@ -88,6 +96,7 @@ struct RunResult {
   GlobalOrdinal activeContactNodes = 0;
   double contactForce = 0;
   double loadWork = 0;                        ///< fᵀu of the loads
+  std::optional<FrictionFeedback> feedback;   ///< with Coulomb's friction
   std::optional<ErrorResult> error;           ///< if asked for
   std::optional<accuracy::EnergyBound> bound; ///< if asked for
   std::string doubts;                         ///< what an estimate does not see; perhaps empty

@@ -12,6 +12,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Slab.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/model/ClusterSize.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
@@ -179,10 +180,26 @@ void enterSolution(SceneRun& run) {
   result.activeContactNodes = solution.activeContactNodes;
   result.contactForce = solution.contactForce;
   result.loadWork = solution.loadWork;
+  result.feedback.reset();
+  if (run.decomposition->data.hasCoulombFriction())
+    result.feedback = {solution.frictionFeedback, solution.feedbackMultiplications};
   result.reason = result.solve.statusReason;
   result.status = result.solve.status == qp::Status::converged     ? RunStatus::converged
                   : result.solve.status == qp::Status::interrupted ? RunStatus::interrupted
                                                                    : RunStatus::notConverged;
+}
+
+/// A sentence where friction is so strong that there may be more than one solution; empty if it is not.
+std::string strongFeedback(const std::optional<FrictionFeedback>& feedback) {
+  constexpr double strong = 0.5;
+  if (!feedback || !(feedback->factor >= strong))
+    return {};
+  const std::string factor =
+      "the bounds of friction feed back on themselves by a factor of " + text(feedback->factor, 2);
+  return factor + (feedback->factor < 1
+                       ? ": the nearer it is to 1, the less is known of whether there is one solution alone"
+                       : ": from 1 on there may be other solutions than this one, and nothing bounds the "
+                         "iteration's error");
 }
 
 /// What follows from the solution. Collective.
@@ -210,8 +227,10 @@ void evaluateRun(SceneRun& run) {
     result.reason = overlaps;
   }
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
-  if (const std::string large = largeDeformations(result, Deformation::doubtful); !large.empty())
-    result.doubts += (result.doubts.empty() ? "" : ". ") + large;
+  for (const std::string& doubt :
+       {largeDeformations(result, Deformation::doubtful), strongFeedback(result.feedback)})
+    if (!doubt.empty())
+      result.doubts += (result.doubts.empty() ? "" : ". ") + doubt;
 }
 
 /// Where the iteration starts: a checkpoint's λ, or the solution on a coarser mesh. Makes the solver and sets

@@ -19,6 +19,7 @@
 namespace epafi::simulation {
 
 struct SceneRun;
+struct StepsDone;
 
 /// A run was stopped where nothing of the mesh at hand is worth keeping.
 class Interrupted : public Error {
@@ -38,6 +39,10 @@ public:
   virtual void meshing() {}
   /// Called when all is ready for the iteration. Likewise.
   virtual void beforeIteration() {}
+  /// The load steps that an earlier run has done, on all ranks alike; null: none.
+  [[nodiscard]] virtual const StepsDone* stepsDone() const { return nullptr; }
+  /// Called when one more load step is solved. Collective.
+  virtual void stepDone(const StepsDone& /*done*/) {}
 };
 
 /// The schema of a whole XML file: the scene, and the sublists Solver and Accuracy.

@@ -5,10 +5,12 @@
 #include "epafi/base/Maps.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/contact/ContactMatrix.hpp"
+#include "epafi/simulation/StepsDone.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>
@@ -39,7 +41,8 @@ StepResult resultOf(const std::string& name, RunResult& result) {
           result.supports,
           result.preloads,
           result.status,
-          result.reason};
+          result.reason,
+          result.feedback};
 }
 
 /// Does what a step needs; whether it has a solution is said with its name.
@@ -56,6 +59,11 @@ auto forStep(const scene::Step& step, const Action& action) {
 /// rows, which may be other ones in the next step.
 class Slip {
 public:
+  /// What an earlier run has left.
+  explicit Slip(const std::vector<NodeSlip>& nodes) {
+    for (const NodeSlip& node : nodes)
+      slip_[{node.contact, node.body, node.node}] = Eigen::Vector3d(node.slip.data());
+  }
   /// Takes in a step's: slack = c − Bu. Not collective.
   void add(const model::Decomposition& cut, const Vector& slack) {
     const auto left = slack.getData();
@@ -64,9 +72,11 @@ public:
       slip_.try_emplace(keyOf(contact, place), Eigen::Vector3d::Zero()).first->second -= left[row] * tangent;
     });
   }
-  /// Where the next step begins. Collective. \throws InputError if the rows are those of other nodes
-  void enter(model::Decomposition& cut) const {
+  /// Where the next step begins; forgets what has no rows on this rank. Collective. \throws InputError if the
+  /// rows are those of other nodes
+  void enter(model::Decomposition& cut) {
     std::map<GlobalOrdinal, double> gaps;
+    std::map<Key, Eigen::Vector3d> own;
     collectively(*cut.problem.comm, [&] {
       forEachRow(cut, [&](const ContactLayout& contact, GlobalOrdinal place, const Eigen::Vector3d& tangent,
                           LocalOrdinal row) {
@@ -76,8 +86,10 @@ public:
                            " has its multipliers on other nodes than in the step before, so that what has "
                            "slipped is not known; say by Multipliers whose they are");
         gaps[cut.problem.multiplierMap->getGlobalElement(row)] = known->second.dot(tangent);
+        own.insert(*known);
       });
     });
+    slip_ = std::move(own);
     std::vector<GlobalOrdinal> rows;
     std::vector<double> values;
     for (const auto& [row, gap] : gaps) {
@@ -85,6 +97,16 @@ public:
       values.push_back(gap);
     }
     cut.data.setGaps(Vector(mapInOrder(rows, cut.problem.comm), Teuchos::arrayViewFromVector(values)));
+  }
+  /// StepsDone::slip. Precondition: a step was added or entered last. Collective.
+  [[nodiscard]] std::vector<NodeSlip> gathered(const Comm& comm) const {
+    std::vector<NodeSlip> nodes;
+    for (const auto& [key, slip] : slip_)
+      nodes.push_back({key[0], key[1], key[2], {slip[0], slip[1], slip[2]}});
+    nodes = gatherOnFirst(comm, nodes);
+    const auto placeOf = [](const NodeSlip& node) { return Key{node.contact, node.body, node.node}; };
+    std::ranges::sort(nodes, {}, placeOf);
+    return nodes;
   }
 
 private:
@@ -112,24 +134,51 @@ private:
     }
   }
 
-  std::map<Key, Eigen::Vector3d> slip_; ///< of this rank's rows
+  std::map<Key, Eigen::Vector3d> slip_; ///< of this rank's rows; before the first `enter` perhaps of others
 };
 
-/// Enters into a scene what the solution of the step before says of it.
-void take(const SceneRun& before, scene::Scene& scene) {
-  for (const PreloadResult& preload : before.result.preloads)
-    for (scene::SurfaceContact& contact : scene.contacts)
+/// The next step's scene, with what the solution of the step before says of it. \throws InputError if that is
+/// not known
+scene::Scene sceneAfter(const StepsDone& done, const scene::Scene& scene,
+                        const std::vector<scene::Step>& steps) {
+  scene::Scene next = scene::atStep(scene, steps, done.results.size());
+  if (done.results.empty())
+    return next;
+  for (const PreloadResult& preload : done.results.back().preloads)
+    for (scene::SurfaceContact& contact : next.contacts)
       if (contact.name == preload.name && contact.preload->kind == scene::Preload::Kind::locked)
         contact.preload->value = preload.shortening;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    for (fem::SolidSupport& support : scene.bodies[b].supports)
+  for (scene::Body& body : next.bodies)
+    for (fem::SolidSupport& support : body.supports) {
+      if (!support.displacements)
+        continue;
+      const auto held = std::ranges::find_if(done.held, [&](const HeldSupport& other) {
+        return other.body == body.name && other.name == support.name;
+      });
+      if (held == done.held.end())
+        throw InputError("where support " + inQuotes(body.name + '/' + support.name) + " is after step " +
+                         inQuotes(done.results.back().name) +
+                         " is not known: the run that solved that step did not hold it in the next one");
+      support.displacements = held->displacements;
+    }
+  return next;
+}
+
+/// The supports that a scene holds where they are. Collective.
+std::vector<HeldSupport> heldBy(const scene::Scene& next, const SceneRun& before) {
+  std::vector<HeldSupport> all;
+  for (std::size_t b = 0; b < next.bodies.size(); ++b)
+    for (const fem::SolidSupport& support : next.bodies[b].supports)
       if (support.displacements) {
-        const fem::SolidBody body(scene.bodies[b], *before.decomposition->bodies[b].mesh);
+        const fem::SolidBody body(next.bodies[b], *before.decomposition->bodies[b].mesh);
         const std::vector<GlobalOrdinal> nodes = body.nodesOf(support.name, support.surface);
         const std::vector<Eigen::Vector3d> u = displacementsAt(before.solved(), static_cast<int>(b), nodes);
+        HeldSupport held{next.bodies[b].name, support.name, {}};
         for (std::size_t k = 0; k < nodes.size(); ++k)
-          (*support.displacements)[nodes[k]] = {u[k][0], u[k][1], u[k][2]};
+          held.displacements[nodes[k]] = {u[k][0], u[k][1], u[k][2]};
+        all.push_back(std::move(held));
       }
+  return all;
 }
 
 /// What is held, may touch and is joined: the same words where rows are the same.
@@ -158,42 +207,61 @@ void changeData(SceneRun& run, const RCP<const Comm>& comm) {
 
 } // namespace
 
+bool changesRows(const scene::Scene& scene, const std::vector<scene::Step>& steps, std::size_t step) {
+  return rowsOf(scene::atStep(scene, steps, step - 1)) != rowsOf(scene::atStep(scene, steps, step));
+}
+
 SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& steps,
                     const Teuchos::ParameterList& solverParameters, const RCP<const Comm>& comm,
                     const RunOptions& options, const std::function<void(SceneRun&)>& tell) {
   RunOptions first = options;
   first.facts.coarserFrom = fetidp::RunFacts().coarserFrom; // a coarser mesh would know one step alone
-  SceneRun run = forStep(
-      steps[0], [&] { return solveScene(scene::atStep(scene, steps, 0), solverParameters, comm, first); });
-  std::vector<StepResult> results{resultOf(steps[0].name, run.result)};
-  Slip slip;
-  for (std::size_t k = 1; k < steps.size() && results.back().status == RunStatus::converged; ++k) {
-    run.result.status = RunStatus::running;
-    run.result.reason =
-        "the run went on with the next load step; if it is not under way any more it ended there";
-    run.result.steps = results;
-    if (tell)
-      tell(run);
-    slip.add(*run.decomposition, *run.solution.slack);
-    scene::Scene next = scene::atStep(scene, steps, k);
-    take(run, next);
+  const StepsDone* const earlier = options.companion != nullptr ? options.companion->stepsDone() : nullptr;
+  StepsDone done = earlier != nullptr ? *earlier : StepsDone();
+  Slip slip(done.slip);
+  SceneRun run;
+  for (std::size_t k = done.results.size(); k < steps.size(); ++k) {
+    scene::Scene next = sceneAfter(done, scene, steps);
     forStep(steps[k], [&] {
-      if (rowsOf(run.scene) == rowsOf(next)) {
+      if (run.solver && !done.changesRows) {
         run.scene = std::move(next);
         changeData(run, comm);
         slip.enter(*run.decomposition);
         solveAgain(run, options);
         return;
       }
-      std::vector<model::BodyLayout> bodies = std::move(run.decomposition->bodies);
-      first.bodies = &bodies;
-      first.changeData = [&](model::Decomposition& cut) { slip.enter(cut); };
+      std::vector<model::BodyLayout> bodies;
+      if (run.solver) {
+        bodies = std::move(run.decomposition->bodies);
+        first.bodies = &bodies;
+      }
+      if (k > 0)
+        first.changeData = [&](model::Decomposition& cut) { slip.enter(cut); };
       run.solver.reset(); // before there is another one
       run = solveScene(next, solverParameters, comm, first);
     });
-    results.push_back(resultOf(steps[k].name, run.result));
+    done.results.push_back(resultOf(steps[k].name, run.result));
+    run.result.steps = done.results;
+    if (run.result.status != RunStatus::converged)
+      break;
+    slip.add(*run.decomposition, *run.solution.slack);
+    done.slip = slip.gathered(*comm);
+    const bool isLast = k + 1 == steps.size();
+    if (!isLast) {
+      next = scene::atStep(scene, steps, k + 1);
+      done.held = heldBy(next, run);
+      done.changesRows = changesRows(scene, steps, k + 1);
+    }
+    if (options.companion != nullptr)
+      options.companion->stepDone(done);
+    if (isLast)
+      break;
+    run.result.status = RunStatus::running;
+    run.result.reason =
+        "the run went on with the next load step; if it is not under way any more it ended there";
+    if (tell)
+      tell(run);
   }
-  run.result.steps = std::move(results);
   return run;
 }
 

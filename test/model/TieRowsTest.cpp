@@ -3,6 +3,8 @@
 #include "support/BlockScenes.hpp"
 #include "support/Refusal.hpp"
 
+#include "epafi/model/TiedNodes.hpp"
+
 #include <gtest/gtest.h>
 
 #include <set>
@@ -11,6 +13,35 @@
 
 namespace epafi::model {
 namespace {
+
+/// Mortars hold the nodes of one side alone, whichever that is of a contact by pairs beside them.
+TEST(TieRowsTest, NodesOfEitherSideThatMortarsHoldHaveNoPairInAContact) {
+  for (const bool isOfFirst : {true, false}) {
+    SCOPED_TRACE(isOfFirst);
+    ContactLayout tie, contact;
+    tie.name = "tie";
+    tie.firstBody = isOfFirst ? 0 : 1;
+    tie.secondBody = 1 - tie.firstBody;
+    tie.firstNodes = {isOfFirst ? 5 : 25};
+    tie.firstShares = {{{tie.firstNodes[0], 1.0}}};
+    tie.secondNodes = {{{7, 0.5}, {8, 0.5}}};
+    tie.areas = {1};
+    contact.firstBody = 0;
+    contact.secondBody = 1;
+    contact.firstNodes = {5, 6};
+    contact.secondNodes = {{{25, 1.0}}, {{26, 1.0}}};
+    contact.directions = {0, 1, 0, 1};
+    contact.gaps = {0, 0};
+    contact.areas = {0.5, 0.5};
+    std::vector<ContactLayout> ties{tie};
+
+    TiedNodes(ties).dropFrom(contact);
+
+    EXPECT_EQ(contact.firstNodes, std::vector<GlobalOrdinal>{6});
+    EXPECT_EQ(ties[0].areas, std::vector<double>{1.5});
+    EXPECT_NE(contact.note.find("1 more node is tied by 'tie'"), std::string::npos) << contact.note;
+  }
+}
 
 /// At corners of six-node triangles ∫N is 0, and forces by it would be anything.
 TEST(TieRowsTest, TractionsOfTiesAreForcesByAreasThatAreNotZero) {

@@ -8,6 +8,7 @@
 
 #include "epafi/base/Slab.hpp"
 #include "epafi/output/Checkpoint.hpp"
+#include "epafi/output/StepsText.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>
@@ -73,10 +74,11 @@ protected:
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
-  void put(const std::string& text) const {
+  const std::filesystem::path& put(const std::string& text) const {
     comm->barrier();
     if (comm->getRank() == 0)
       std::ofstream(file, std::ios::binary) << text;
+    return file;
   }
   /// What readCheckpoint says of a file with this content.
   [[nodiscard]] std::string refusalOf(const std::string& text) const {
@@ -106,6 +108,77 @@ TEST_F(CheckpointTest, WhatIsReadIsWhatWasWritten) {
   const RCP<Vector> lambda = multipliersOf(readCheckpoint(file, *comm), cut.problem, fingerprint);
   lambda->update(-1.0, *multipliers(), 1.0);
   EXPECT_EQ(lambda->normInf(), 0);
+}
+
+/// Two steps, with one of all there is.
+simulation::StepsDone stepsDone() {
+  simulation::StepsDone done;
+  simulation::StepResult step;
+  step.name = "pull, \n1";
+  step.multiplications = 17;
+  step.strainEnergy = 1.0 / 3;
+  step.loadWork = -1e-300;
+  step.reason = "the tolerance is reached";
+  step.feedback = {0.25, 9};
+  simulation::ContactResult contact;
+  contact.name = "";
+  contact.candidates = 12;
+  contact.resultant = {0.1, -0.0, 1e99};
+  contact.penetration = 1e-7;
+  contact.balance = {"mortars", 1e-16, 2e-16};
+  contact.friction.emplace().moment = {1, 2, 3};
+  step.contacts = {contact, {}};
+  step.supports = {{"body", "foot", {1, 2, 3}, {4, 5, 6}}};
+  step.preloads = {{"bolt", 100, 0.1}};
+  done.results = {step, {}};
+  done.slip = {{0, 1, 77, {0.1, 0.2, 0.3}}, {1, 0, 3, {0, -1, 0}}};
+  done.held = {{"body", "foot", {{5, {1, 2, 3}}, {9, {-1, 0.1, 0}}}}};
+  done.marks = {0xffffffffffffffffULL, 0, 5};
+  return done;
+}
+
+TEST_F(CheckpointTest, LoadStepsAreReadOnAllRanksAsTheyWereWritten) {
+  const simulation::StepsDone written = stepsDone();
+  writeCheckpoint(file, fingerprint, *multipliers(), &written);
+
+  const Checkpoint checkpoint = readCheckpoint(file, *comm);
+
+  ASSERT_TRUE(checkpoint.steps.has_value());
+  const simulation::StepsDone& read = *checkpoint.steps;
+  ASSERT_EQ(read.results.size(), 2U);
+  const simulation::StepResult &step = read.results[0], &first = written.results[0];
+  EXPECT_EQ(step.name, first.name);
+  EXPECT_EQ(step.strainEnergy, first.strainEnergy);
+  EXPECT_EQ(step.loadWork, first.loadWork);
+  EXPECT_EQ(step.feedback->factor, 0.25);
+  ASSERT_EQ(step.contacts.size(), 2U);
+  EXPECT_EQ(step.contacts[0].resultant, first.contacts[0].resultant);
+  EXPECT_EQ(step.contacts[0].penetration, first.contacts[0].penetration);
+  EXPECT_EQ(step.contacts[0].balance->coupling, "mortars");
+  EXPECT_EQ(step.contacts[0].friction->moment, first.contacts[0].friction->moment);
+  EXPECT_FALSE(step.contacts[1].friction.has_value());
+  EXPECT_EQ(step.supports[0].moment, first.supports[0].moment);
+  EXPECT_EQ(step.preloads[0].shortening, 0.1);
+  EXPECT_EQ(read.slip[1].node, 3);
+  EXPECT_EQ(read.slip[0].slip, written.slip[0].slip);
+  EXPECT_EQ(read.held[0].displacements, written.held[0].displacements);
+  EXPECT_EQ(read.marks, written.marks);
+  EXPECT_EQ(stepsText(read), stepsText(written));
+  EXPECT_FALSE(readCheckpoint(put(expectedContent()), *comm).steps.has_value());
+}
+
+TEST_F(CheckpointTest, StepsThatCannotBeReadAreRefusedWithARightChecksumToo) {
+  const std::string text = stepsText(stepsDone());
+  std::string values;
+  for (GlobalOrdinal row = 0; row < fingerprint.numMultipliers(); ++row)
+    values += bytesOf(valueOf(row));
+  for (std::size_t length = 1; length < text.size(); length += 3 * stride)
+    ::epafi::test::expectSays(
+        refusalOf(sealed(checkpointHeader(fingerprint, length) + values + text.substr(0, length))),
+        {file.string(), "load steps that cannot be read"});
+  for (const std::string& other : {text + "1\n", std::string("99999999999999\n"), std::string("-1\n")})
+    ::epafi::test::expectSays(refusalOf(sealed(checkpointHeader(fingerprint, other.size()) + values + other)),
+                              {"load steps that cannot be read"});
 }
 
 TEST_F(CheckpointTest, TheFingerprintDoesNotDependOnTheRanks) {
@@ -155,8 +228,8 @@ TEST_F(CheckpointTest, WhatIsNoCheckpointIsRefused) {
   expectSays(refusalOf(""), {file.string(), "no checkpoint of Epafi"});
   expectSays(refusalOf("\x89HDF\r\n\x1a\n and so on"), {"no checkpoint of Epafi"});
   expectSays(refusalOf(std::string(100000, 'x')), {"no checkpoint of Epafi"});
-  expectSays(refusalOf("Epafi checkpoint 2\n"), {"another version"});
-  expectSays(refusalOf("Epafi checkpoint 1\norder middle\n"), {"another order"});
+  expectSays(refusalOf("Epafi checkpoint 1\n"), {"another version"});
+  expectSays(refusalOf("Epafi checkpoint 2\norder middle\n"), {"another order"});
 }
 
 TEST_F(CheckpointTest, AFileCutOffAnywhereIsRefused) {

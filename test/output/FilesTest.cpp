@@ -8,6 +8,7 @@
 #include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/FileSet.hpp"
 #include "epafi/output/Report.hpp"
+#include "epafi/output/SafeNames.hpp"
 
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <Tpetra_Core.hpp>

@@ -95,6 +95,24 @@ TEST_F(Hdf5FileTest, AbandonedFileLeavesTheOlderOne) {
   EXPECT_EQ(directory.content(), Names{"fields.h5"});
 }
 
+TEST_F(Hdf5FileTest, OfAGroupOnlyTheNamesThatAreWantedStay) {
+  Hdf5File first(path, comm);
+  for (const char* const name : {"/steps/a/x", "/steps/b/x", "/steps/c/x"})
+    writeTable<int>(first, name, 2, 0, evenShare(2, *comm));
+  first.link("/x", "/steps/c/x");
+  first.close();
+  const std::filesystem::path other = directory.path() / "other.h5";
+  Hdf5File second(other, comm, path);
+  second.removeAllBut("/steps", {"b", "d"});
+  EXPECT_THROW(second.link("/y", "/steps/a/x"), Error);
+  EXPECT_THROW(second.removeAllBut("/none", {}), Error);
+  second.link("/x", "/steps/b/x");
+  second.close();
+  EXPECT_EQ(directory.content(), (Names{"fields.h5", "other.h5"}));
+  EXPECT_EQ(test::readTable(other, "/steps/b/x").values, (std::vector<double>{0, 10}));
+  EXPECT_EQ(test::readTable(path, "/steps/c/x").values, (std::vector<double>{0, 10}));
+}
+
 TEST_F(Hdf5FileTest, AFileGoesOnWithAllThatTheOlderOneHas) {
   Hdf5File first(path, comm);
   writeTable<int>(first, "/steps/a/x", 2, 0, evenShare(2, *comm));
@@ -102,7 +120,7 @@ TEST_F(Hdf5FileTest, AFileGoesOnWithAllThatTheOlderOneHas) {
   first.attribute("/", "name", std::string("a"));
   first.close();
   {
-    Hdf5File second(path, comm, Hdf5File::Content::older);
+    Hdf5File second(path, comm, path);
     writeTable<int>(second, "/steps/b/x", 3, 0, evenShare(3, *comm));
     second.link("/x", "/steps/b/x");
     second.attribute("/", "name", std::string("longer"));
@@ -114,7 +132,7 @@ TEST_F(Hdf5FileTest, AFileGoesOnWithAllThatTheOlderOneHas) {
   EXPECT_EQ(test::readTable(path, "/steps/a/x").values, (std::vector<double>{0, 10}));
   EXPECT_EQ(test::readTable(path, "/x").values, (std::vector<double>{0, 10, 20}));
   EXPECT_EQ(test::readText(path, "/", "name"), "longer");
-  EXPECT_THROW(Hdf5File(directory.path() / "none.h5", comm, Hdf5File::Content::older), Error);
+  EXPECT_THROW(Hdf5File(directory.path() / "none.h5", comm, directory.path() / "none.h5"), Error);
   EXPECT_EQ(directory.content(), Names{"fields.h5"});
 }
 

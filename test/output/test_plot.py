@@ -340,6 +340,16 @@ class Plot(unittest.TestCase):
         for word in ("slips", "sticks", "friction, along the line"):
             self.assertIn(word, picture.read_text())
 
+    def test_contacts_in_space_show_the_boundary_of_what_sticks(self):
+        elastic_runs.write(self.directory / "run.h5", "hexahedron")
+        with h5py.File(self.directory / "run.h5", "a") as content:
+            pair = content["contact/joint"]
+            number = len(pair["points"])
+            pair["traction"], pair["friction_state"] = numpy.ones((number, 3)), numpy.arange(number) % 3
+        (picture,) = [picture for picture in self.pictures(self.directory, "--format", "svg") if "contact" in picture.name]
+        for word in ("boundary of what sticks", "nodes stick,"):
+            self.assertIn(word, picture.read_text())
+
     def test_runs_to_a_target_are_drawn(self):
         (self.directory / "targets.csv").write_text(TARGETS)
         (self.directory / "meshes.csv").write_text(MESHES)

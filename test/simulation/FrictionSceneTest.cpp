@@ -3,6 +3,7 @@
 
 #include "support/SolidScenes.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/simulation/ContactState.hpp"
 #include "epafi/simulation/FrictionResults.hpp"
@@ -63,6 +64,57 @@ TEST(FrictionSceneTest, AHeldBlockPressesAndRubsAsMuchAsAnIndependentSolverSays)
       EXPECT_NEAR(frictionOf(run.result).stickArea + frictionOf(run.result).slipArea, 1, 1e-12);
       EXPECT_GT(frictionOf(run.result).dissipation, 0);
     }
+}
+
+/// What the floor takes from the block is what the block's support gives it.
+TEST(FrictionSceneTest, MomentsAboutOriginAndCentreAreThoseOfTheSupport) {
+  scene::Scene scene = heldBlock(8, test::cutInGrid({2, 2, 1}));
+  scene.bodies[0].mesh.box = {{2, 0, 0}, {3, 1, 0}};
+  const SceneRun run = solved(scene);
+  const FrictionResult& friction = frictionOf(run.result);
+  const SupportResult& support = run.result.supports[0];
+  EXPECT_NEAR(friction.centre[0], 2.5, 1e-12);
+  EXPECT_NEAR(friction.centre[1], 0, 1e-12);
+  EXPECT_NEAR(friction.stickArea + friction.slipArea + friction.openArea, 1, 1e-12);
+  const double size = std::abs(support.moment[2]);
+  EXPECT_NEAR(friction.moment[2], support.moment[2], 1e-8 * size);
+  EXPECT_NEAR(friction.centreMoment[2], support.moment[2] - 2.5 * support.force[1], 1e-8 * size);
+  // Friction acts along y = 0: it turns neither about the origin nor about the centre.
+  EXPECT_NEAR(friction.tangentialMoment[2], 0, 1e-12);
+  EXPECT_NEAR(friction.centreTangential[2], 0, 1e-12);
+}
+
+/// ‖u − v‖_K = ‖λ − λ′‖_F of two runs of one scene, where nothing floats.
+double distance(const SceneRun& one, const SceneRun& other) {
+  Vector off(*one.solution.multiplier, Teuchos::Copy), image(off.getMap());
+  off.update(-1.0, *other.solution.multiplier, 1.0);
+  one.solver->dualProblem().dualOperator()->apply(off, image);
+  return std::sqrt(off.dot(image));
+}
+
+/// The error of an iteration that ends early is within its bound; on a rigid floor bounds of Coulomb's
+/// friction feed back by about μβ, with Dundurs' β = (1 − 2ν)/(2(1 − ν)) = 0.286, and at corners by more.
+TEST(FrictionSceneTest, TheBoundOfTheIterationsErrorHoldsAsBoundsFeedBack) {
+  for (const double friction : {0.1, 0.3, 0.6})
+    for (const bool isCoulomb : {true, false})
+      for (const double push : {0.004, 0.05}) { // where some of it slides, and all of it
+        SCOPED_TRACE(testing::Message() << friction << (isCoulomb ? ", Coulomb, " : ", Tresca, ") << push);
+        scene::Scene scene = heldBlock(16, test::cutInGrid({2, 2, 1}));
+        scene.contacts[0].friction = isCoulomb ? friction : 0;
+        scene.contacts[0].frictionBound = isCoulomb ? 0 : 0.01 * friction;
+        scene.bodies[0].supports[0].value[0] = push;
+        const SceneRun exact = solved(scene);
+        ASSERT_EQ(exact.result.feedback.has_value(), isCoulomb);
+        if (isCoulomb && push > 0.01) {
+          EXPECT_GT(exact.result.feedback->factor, 0.3 * 0.286 * friction);
+          EXPECT_LT(exact.result.feedback->factor, 2.5 * 0.286 * friction);
+        }
+        for (const double asked : {1e-1, 1e-2, 1e-3}) {
+          const SceneRun rough =
+              solveScene(scene, Teuchos::ParameterList().set("Tolerance", asked), Tpetra::getDefaultComm());
+          EXPECT_LE(distance(rough, exact), 1.001 * rough.solution.algebraicError) << asked;
+        }
+      }
 }
 
 /// A block of order 2 on one three times as stiff that is wider, pressed by 0.01 and sheared by 0.002, μ =

@@ -162,6 +162,72 @@ class Friction(unittest.TestCase):
         report = study.xml.etree.ElementTree.parse(self.place / "report.xml").getroot()
         self.assertAlmostEqual(float(study.listed(report, "Contact", "joint", "Force")), 50.0 * 100, delta=1e-3)
 
+    def test_the_loop_of_a_bolted_joint_closes(self):
+        """What is pulled to and fro past sliding finds the same forces in the second cycle."""
+        rows, off = self.compared("joint", 2.0)
+        self.assertEqual(len(rows), 25)
+        for name, most in (("force pulled forth again", 1e-6), ("force pulled back again", 1e-6), ("work of a cycle", 1e-3),
+                           ("work and the loop's area", 0.2)):
+            self.assertLess(off[name], most, name)
+        report = study.xml.etree.ElementTree.parse(self.place / "report.xml").getroot()
+        slides = study.listed(report, "Steps", "back 2: -1", "Contact", "joint")
+        self.assertEqual(float(study.listed(slides, "Stick Area")), 0)
+        force, pressing = study.listed(slides, "Tangential Force").strip("{}").split(","), float(study.listed(slides, "Force"))
+        self.assertAlmostEqual(abs(float(force[0])) / (0.15 * pressing), 1, places=2)
+        turned = study.listed(report, "Steps", "back 2: 0.8", "Contact", "joint")
+        self.assertGreater(float(study.listed(turned, "Stick Area")), 0)
+        bolt = study.listed(report, "Steps", "bolt", "Preload", "bolt")
+        self.assertEqual(float(study.listed(bolt, "Force")), 2500)
+
+    def test_a_block_that_is_driven_back_slides_as_it_did_the_other_way(self):
+        ended = subprocess.run([EPAFI, SOURCE / "xml/driven_block.xml", "--quiet", "--output", self.place, "--set",
+                                "Bodies/block/Elements={40,20}", "--set", "Solver/Tolerance=1e-9"],
+                               capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual((ended.returncode, ended.stderr), (COMPLETE, ""))
+        with open(self.place / "steps.csv", newline="", encoding="utf-8") as stream:
+            steps = {row["step"]: {name: float(row[name]) for name in row if name not in ("step", "contact")}
+                     for row in csv.DictReader(stream)}
+        self.assertEqual(list(steps)[-1], "left 0")
+        right, left, press = steps["right 1"], steps["left 0"], steps["press"]
+        for way, sign in ((right, 1), (left, -1)):
+            self.assertEqual(way["stick_area"], 0)
+            self.assertAlmostEqual(way["tangential_x"] / way["force"], 0.4 * sign, places=6)
+            self.assertAlmostEqual(way["slip_area"] + way["open_area"], 40, places=9)
+        self.assertAlmostEqual(left["force"] / right["force"], 1, places=6)
+        self.assertLess(abs(press["tangential_x"]), 1e-9 * press["force"])
+        self.assertGreater(press["stick_area"], 0)
+
+    def test_one_contact_may_have_coulombs_law_and_another_one_given_bounds(self):
+        tree = xml.etree.ElementTree.parse(SOURCE / "xml/driven_block.xml")
+        lists = {entry.get("name"): entry for entry in tree.getroot()}
+        tree.getroot().remove(lists["Steps"])
+        lists["Obstacles"].append(xml.etree.ElementTree.fromstring(
+            '<ParameterList name="wall"><Parameter name="Kind" type="string" value="plane"/><Parameter name="Point" '
+            'type="Array(double)" value="{40, 0}"/><Parameter name="Normal" type="Array(double)" value="{-1, 0}"/></ParameterList>'))
+        lists["Contact"].append(xml.etree.ElementTree.fromstring(
+            '<ParameterList name="side"><Parameter name="First Body" type="string" value="block"/><Parameter name="First Surface" '
+            'type="string" value="right"/><Parameter name="Obstacle" type="string" value="wall"/>'
+            '<Parameter name="Friction Bound" type="double" value="0.002"/></ParameterList>'))
+        tree.write(self.place / "both.xml")
+        for ranks in (1, 2):
+            ended = subprocess.run([*LAUNCH, str(ranks), EPAFI, self.place / "both.xml", "--quiet", "--output", self.place, "--set",
+                                    "Bodies/block/Supports/drive/X=0", "--set", "Bodies/block/Elements={24,12}", "--set",
+                                    "Solver/Tolerance=1e-10"], capture_output=True, text=True, timeout=120, check=False)
+            self.assertEqual((ended.returncode, ended.stderr), (COMPLETE, ""))
+            with h5py.File(self.place / "both.h5") as file:
+                side, foot = ({name: file[f"contact/{pair}/{name}"][:] for name in ("traction", "pressure", "friction_state")}
+                              for pair in ("side", "foot"))
+            slips = side["friction_state"] == 1
+            self.assertGreater(slips.sum(), 10)
+            length = numpy.linalg.norm(side["traction"], axis=1)
+            self.assertLess(length.max(), 0.002 * (1 + 1e-9))
+            self.assertLess(abs(length[slips] - 0.002).max(), 1e-9)
+            slips = foot["friction_state"] == 1
+            self.assertGreater(slips.sum(), 10)
+            length = numpy.linalg.norm(foot["traction"], axis=1)
+            self.assertLess((length - 0.4 * foot["pressure"]).max(), 1e-9)
+            self.assertLess(abs(length - 0.4 * foot["pressure"])[slips].max(), 1e-6 * foot["pressure"].max())
+
     def test_slip_is_the_displacement_along_the_floor_and_traction_within_coulombs_law_at_each_node(self):
         (self.place / "cube.geo").write_text(CUBE, encoding="utf-8")
         for mesh in ("plane", "space", "cube.geo"):
@@ -256,7 +322,7 @@ class Friction(unittest.TestCase):
     def test_the_study_writes_tables_and_says_what_went_wrong(self):
         ended = run("--program", EPAFI, "--output", self.place, "--factor", 4)
         self.assertEqual((ended.returncode, ended.stderr), (COMPLETE, ""))
-        for name, first in (("traction", "x"), ("loop", "displacement")):
+        for name, first in (("traction", "x"), ("loop", "displacement"), ("joint", "displacement")):
             with open(self.place / f"friction_{name}.csv", newline="", encoding="utf-8") as stream:
                 rows = list(csv.DictReader(stream))
             self.assertEqual({row["source"] for row in rows} - {"closed form", "thin strip"}, {"computed"})

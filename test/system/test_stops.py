@@ -263,7 +263,7 @@ class Kills(Run):
             return run(WITH_FAULTS, scene("clamped_strap"), "--output", directory, env=environment)
         self.assertEqual(end(0, self.place / "whole").returncode, SOLVED)
         expected, told = self.steps_in(self.place / "whole"), []
-        for number in range(1, 20):  # six files a step, up to the first one of the fourth
+        for number in range(1, 23):  # seven files a step, up to the first one of the fourth
             directory = self.place / f"out{number}"
             ended = end(number, directory)
             self.assertEqual(ended.returncode, -signal.SIGKILL)

@@ -31,6 +31,11 @@ struct ContactSolution {
   /// Energy norm of the difference to the solution of the discrete problem, at most; NaN where there is no
   /// preconditioner to measure it by.
   double algebraicError = 0;
+  /// With Coulomb's friction q, by which errors of its bounds shrink (qp/solve/BoundFeedback.hpp), and the
+  /// products with F that it took; algebraicError is that with the bounds given, times what they make of it,
+  /// 1/(1 − q) at least, or NaN where q ≥ 1.
+  double frictionFeedback = 0;
+  int feedbackMultiplications = 0;
   bool isEstimated = false; ///< ErrorBalance::estimate was last asked about this solution
 
   double energy = 0;       ///< ½uᵀKu − fᵀu
