@@ -19,6 +19,9 @@ struct Task {
   std::vector<scene::Step> steps;
   Teuchos::ParameterList solver{}; ///< validated
   simulation::AccuracyParameters accuracy{};
+  /// Of a deck: there are no finer meshes, and a target is what the error on its own one is judged by.
+  bool keepsMesh = false;
+  [[nodiscard]] bool refines() const { return accuracy.target > 0 && !keepsMesh; }
 };
 
 /// \param given  all of a scene, in the schema of simulation::driverSchema()
@@ -33,7 +36,8 @@ struct StageTellers {
   std::function<void(simulation::SceneRun&)> step;
 };
 
-/// On the scene's own mesh, or on finer ones until the error is small enough, or step by step. Collective.
+/// On the scene's own mesh, or on finer ones until the error is small enough, or step by step; of a deck that
+/// misses its target that is the status. Collective.
 /// \throws as simulation::solveScene.
 simulation::SceneRun solveTask(const Task& task, const RCP<const Comm>& comm,
                                simulation::RunCompanion* companion, const StageTellers& tell);

@@ -69,7 +69,7 @@ simulation::SceneRun solveAsAsked(const Task& task, const RCP<const Comm>& comm,
     if (speaks) // of a stage whose files are there
       std::cout << describe(stage) << std::flush;
   };
-  const bool isSeries = task.accuracy.target > 0;
+  const bool isSeries = task.refines();
   if (isSeries)
     watch.expectSeries();
   simulation::SceneRun run =

@@ -178,6 +178,13 @@ std::vector<GlobalOrdinal> DeckBodies::cornersOf(const std::pair<GlobalOrdinal, 
   return corners;
 }
 
+std::size_t DeckBodies::numCornersOf(GlobalOrdinal element) const {
+  int last = 0;
+  for (const std::vector<int>& face : typeOf(element).faces)
+    last = std::max(last, *std::max_element(face.begin(), face.end()));
+  return static_cast<std::size_t>(last) + 1;
+}
+
 const std::vector<int>& DeckBodies::ofNode(GlobalOrdinal node) const {
   static const std::vector<int> none;
   const auto found = bodiesOfNode_.find(node);

@@ -1,6 +1,7 @@
 #include "epafi/deck/DeckModel.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/deck/DeckSections.hpp"
 #include "epafi/deck/ModelMaker.hpp"
 
 #include <Eigen/Geometry>
@@ -88,6 +89,18 @@ std::string ModelMaker::elementsNamed(const std::string& name, Numbers elements)
   return place->second;
 }
 
+void ModelMaker::checkPrints() {
+  const bool isPlane = bodies_.all().front().type->dimension == 2;
+  for (const Step& step : deck_.steps)
+    for (const Print& print : step.prints)
+      if (print.of == Print::Of::elements && isPlane)
+        model_.notes.push_back(text(print.place) +
+                               ": *EL PRINT is of solids alone here; --frd has stresses at nodes");
+      else if (print.of == Print::Of::section && !sectionAt(deck_, bodies_, deck_.surfaces.at(print.set)))
+        model_.notes.push_back(text(print.place) + ": *SECTION PRINT: " + print.set +
+                               " is no surface of faces that parts a solid, or bounds it; passed over");
+}
+
 void ModelMaker::addBodies() {
   for (int b = 0; b < std::ssize(bodies_.all()); ++b) {
     const DeckBody& body = bodies_.all()[b];
@@ -119,18 +132,19 @@ void ModelMaker::addBodies() {
         own = &list.sublist("Regions").sublist(name);
         own->set("Group", elementsNamed(name, elements));
       }
-      addMaterial(*own, deck_.sections[section]);
+      addMaterial(*own, deck_.sections[section], b);
       isRegion = true;
     }
+    addStiffnessFactors(b);
   }
 }
 
-void ModelMaker::addMaterial(ParameterList& list, const Section& section) {
+void ModelMaker::addMaterial(ParameterList& list, const Section& section, int body) {
   const Material& material = deck_.materials.at(section.material);
   if (!material.elastic)
     throw InputError(text(material.place) + ": *MATERIAL: " + section.material +
                      " has no *ELASTIC; bodies are linearly elastic here");
-  const std::vector<double> constants = constantsOf(material);
+  const std::vector<double> constants = constantsOf(material, body);
   const ElementForm& type = *bodies_.all().front().type;
   if (type.dimension == 2 && !isOfRevolution(type))
     list.set("Thickness", section.thickness.value_or(1.0));
@@ -151,6 +165,7 @@ bool isDeck(const std::string& file) {
 
 DeckModel modelOf(const Deck& deck, const std::string& mesh) {
   ModelMaker maker(deck, mesh);
+  maker.checkPrints();
   maker.addBodies();
   maker.addSteps();
   maker.addPretensions();

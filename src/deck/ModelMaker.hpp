@@ -20,6 +20,8 @@ class ModelMaker {
 public:
   ModelMaker(const Deck& deck, std::string mesh);
 
+  /// Notes what is not printed.
+  void checkPrints();
   /// Materials, sections, and what is reduced.
   void addBodies();
   /// Supports, forces, pressures and temperatures, and the steps where there are several.
@@ -45,7 +47,7 @@ private:
 
   // DeckModel.cpp
   [[nodiscard]] Teuchos::ParameterList& listOf(int body);
-  void addMaterial(Teuchos::ParameterList& list, const Section& section);
+  void addMaterial(Teuchos::ParameterList& list, const Section& section, int body);
   /// Name of a group of nodes or elements of the mesh that has these; equal ones have one name.
   std::string nodesNamed(const std::string& name, Numbers nodes);
   std::string elementsNamed(const std::string& name, Numbers elements);
@@ -64,8 +66,13 @@ private:
   [[nodiscard]] Temperatures initialTemperatures() const;
   /// At the end of a step, of the nodes of which anything is said.
   [[nodiscard]] Temperatures temperaturesAt(std::size_t step) const;
-  /// Those of elasticity, at the one temperature of all nodes if they depend on it.
-  [[nodiscard]] std::vector<double> constantsOf(const Material& material) const;
+  /// All that nodes of a body have in any step.
+  [[nodiscard]] std::set<double> temperaturesIn(int body) const;
+  [[nodiscard]] std::vector<const Material*> materialsOf(int body) const;
+  /// Those of elasticity; if they depend on it at the one temperature of the body's nodes, or else as
+  /// addStiffnessFactors() wants them.
+  [[nodiscard]] std::vector<double> constantsOf(const Material& material, int body) const;
+  void addStiffnessFactors(int body);
   void setExpansion(Teuchos::ParameterList& list, const Material& material) const;
   /// Changes of temperature at the nodes of a body that expands.
   [[nodiscard]] Temperatures changesOf(int body, const Temperatures& initial, const Temperatures& now) const;

@@ -58,6 +58,15 @@ def displacements_in_frd(text):
             for line in block[:block.index("\n -3")].splitlines() if line.startswith(" -1")}
 
 
+def stresses_in_dat(text):
+    """{(element, point): stress} of the last time that is printed."""
+    fields = {}
+    for time, block in re.findall(r"\n stresses \(elem, integ\.pnt\..* and time +(\S+)\n\n((?: .*\n)*)", text):
+        rows = (line.split() for line in block.splitlines())
+        fields.setdefault(float(time), {}).update({(int(row[0]), int(row[1])): [float(x) for x in row[2:]] for row in rows})
+    return fields[max(fields)] if fields else {}
+
+
 def reference(name, kind, folder):
     if kind == "ref":
         return displacements_in_dat(text_of(f"{name}.dat.ref"))
@@ -85,7 +94,8 @@ class DecksTest(unittest.TestCase):
 
     def solve(self, name, ranks=1):
         (self.folder / f"{name}.inp").write_text(deck(name), encoding="latin-1")
-        command = [EPAFI, self.folder / f"{name}.inp", "--frd", self.folder / f"epafi_{name}.frd"]
+        command = [EPAFI, self.folder / f"{name}.inp", "--frd", self.folder / f"epafi_{name}.frd", "--dat",
+                   self.folder / f"epafi_{name}.dat"]
         if ranks > 1:
             command = [*LAUNCH, str(ranks), *command]
         done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
@@ -115,6 +125,35 @@ class DecksTest(unittest.TestCase):
                              reference(row["deck"], row["reference"], self.folder), float(row["tolerance"]))
                 compared += 1
         self.assertGreaterEqual(compared, 20)
+
+    def test_stresses_at_integration_points_are_those_of_calculix(self):
+        compared = 0
+        for row in table():
+            if row["reference"] != "ref" or float(row["tolerance"]) > 1e-5:
+                continue
+            expected = stresses_in_dat(text_of(f"{row['deck']}.dat.ref"))
+            if not expected or re.search("TYPE *= *C(PE|PS|AX)", deck(row["deck"]), re.I):
+                continue
+            with self.subTest(row["deck"]):
+                self.solve(row["deck"], 1 + compared % 2)
+                found = stresses_in_dat((self.folder / f"epafi_{row['deck']}.dat").read_text(encoding="utf-8"))
+                self.assertEqual(found.keys(), expected.keys())
+                largest = max(abs(x) for stress in expected.values() for x in stress)
+                for place, stress in expected.items():
+                    for x, y in zip(found[place], stress, strict=True):
+                        self.assertAlmostEqual(x, y, delta=1e-5 * largest, msg=f"{place}")
+                compared += 1
+        self.assertGreaterEqual(compared, 20)
+
+    def test_a_target_is_judged_on_the_mesh_of_the_deck(self):
+        (self.folder / "beam10p.inp").write_text(deck("beam10p"), encoding="latin-1")
+        for share, code in ((0.2, 0), (0.02, 1)):
+            done = subprocess.run([EPAFI, self.folder / "beam10p.inp", "--accuracy", str(share)], capture_output=True,
+                                  text=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, code, done.stderr)
+            found = re.search(r"estimated error ([\d.]+) %", done.stdout)
+            self.assertEqual(float(found.group(1)) > 100 * share, code == 1)
+            self.assertEqual("TargetMissed: the estimated error is" in done.stdout, code == 1)
 
     def test_two_ranks_find_the_same(self):
         for row in table()[::6]:
