@@ -156,7 +156,9 @@ void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
     const std::vector<simulation::StepResult>& steps = run.result.steps;
     if (steps.size() < 2) // of other meshes before
       collectively(*comm_, [&] {
-        frd_ = output::FrdFile(comm_->getRank() == 0 ? numberingOf(options_.scene) : output::FrdNumbering());
+        const bool isOwnMesh = !run.result.target; // finer ones have numbers of their own
+        frd_ = output::FrdFile(comm_->getRank() == 0 && isOwnMesh ? numberingOf(options_.scene)
+                                                                  : output::FrdNumbering());
       });
     if (steps.empty())
       frd_.add(run.solved(), run.evaluation);

@@ -1,5 +1,6 @@
 #include "Task.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
 #include "epafi/base/Text.hpp"
@@ -8,6 +9,8 @@
 #include "epafi/simulation/AccurateRun.hpp"
 #include "epafi/simulation/StepRun.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace epafi::drivers {
@@ -17,27 +20,25 @@ namespace {
 void requireOneOfBoth(const std::string& file, const Task& task) {
   const simulation::AccuracyParameters& accuracy = task.accuracy;
   const bool hasQuantity = accuracy.quantity.kind != simulation::QuantityParameters::Kind::none;
-  if (accuracy.target > 0 && hasQuantity && task.keepsMesh)
-    throw InputError(file +
-                     ": a deck is solved on its own mesh, on which a Quantity has its bar whatever the "
-                     "Target; leave out one of them.");
   if (!task.steps.empty() && accuracy.bound)
     throw InputError(file + ": guaranteed bounds are not there for load steps; leave out \"Bound\".");
-  if (!task.steps.empty() && (task.refines() || hasQuantity))
+  if (!task.steps.empty() && ((accuracy.target > 0 && task.deck.empty()) || hasQuantity))
     throw InputError(file +
                      ": list \"Steps\" cannot go together with a Target or a Quantity in list "
                      "\"Accuracy\": load steps are solved on the mesh that is given; leave out one of them.");
 }
 
-/// A run that stays on its mesh, by its estimated error.
+/// A run that stays on its mesh, by its estimated error or the bar of what is asked for.
 void judge(double target, simulation::RunResult& result) {
-  if (result.status != simulation::RunStatus::converged || !result.error ||
-      result.error->relative() <= target)
+  const double error = result.quantity ? result.quantity->bar / std::abs(result.quantity->value)
+                       : result.error  ? result.error->relative()
+                                       : 0;
+  if (result.status != simulation::RunStatus::converged || error <= target)
     return;
   result.status = simulation::RunStatus::targetMissed;
-  result.reason = "the estimated error is " + text(100 * result.error->relative()) + " %, and " +
-                  text(100 * target) +
-                  " % was asked; a deck is solved on its own mesh: refine it where it comes from";
+  result.reason = "the estimated error is " + text(100 * error) + " %, and " + text(100 * target) +
+                  " % was asked; finer meshes would not have the nodes, steps or integration points of this "
+                  "deck: refine it where it comes from";
 }
 
 } // namespace
@@ -48,9 +49,25 @@ Task readTask(const Teuchos::ParameterList& given, const std::string& file) {
   task.steps = scene::readSteps(given, file, task.scene);
   task.solver = list.sublist("Solver");
   task.accuracy = simulation::AccuracyParameters::from(list.sublist("Accuracy"));
-  task.keepsMesh = deck::isDeck(file);
+  if (deck::isDeck(file))
+    task.deck = file;
   requireOneOfBoth(file, task);
   return task;
+}
+
+bool refines(const Task& task, const Comm& comm) {
+  if (task.accuracy.target <= 0 || task.deck.empty())
+    return task.accuracy.target > 0;
+  const std::vector<scene::Body>& bodies = task.scene.bodies;
+  if (task.keepsMesh || !task.steps.empty() ||
+      std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.reducedIntegration; }))
+    return false;
+  bool namesNodes = false;
+  collectively(comm, [&] {
+    if (comm.getRank() == 0)
+      namesNodes = !deck::modelOf(deck::readDeck(task.deck), task.deck).groups.nodes.empty();
+  });
+  return maxOverRanks(comm, namesNodes ? 1 : 0) == 0;
 }
 
 simulation::SceneRun solveTask(const Task& task, const RCP<const Comm>& comm,
@@ -63,7 +80,7 @@ simulation::SceneRun solveTask(const Task& task, const RCP<const Comm>& comm,
                                        .facts = {.coarserFrom = accuracy.coarserFrom},
                                        .companion = companion,
                                        .meshes = model::Meshes::pieces};
-  if (task.refines())
+  if (refines(task, *comm))
     return std::move(
         simulation::solveToTarget(task.scene, task.solver, accuracy, comm, companion, tell.mesh).run);
   simulation::SceneRun run =

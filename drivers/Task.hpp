@@ -19,9 +19,8 @@ struct Task {
   std::vector<scene::Step> steps;
   Teuchos::ParameterList solver{}; ///< validated
   simulation::AccuracyParameters accuracy{};
-  /// Of a deck: there are no finer meshes, and a target is what the error on its own one is judged by.
-  bool keepsMesh = false;
-  [[nodiscard]] bool refines() const { return accuracy.target > 0 && !keepsMesh; }
+  std::string deck{};     ///< the file, if it is one
+  bool keepsMesh = false; ///< whether it has to be solved on its own mesh whatever the target
 };
 
 /// \param given  all of a scene, in the schema of simulation::driverSchema()
@@ -29,6 +28,11 @@ struct Task {
 /// \throws InputError or SolvabilityError, as the scene's readers, and for what does not go together. Not
 /// collective.
 Task readTask(const Teuchos::ParameterList& given, const std::string& file);
+
+/// Whether there are finer meshes to come to a target: of a deck where all that it names are faces and
+/// elements, no body is integrated by fewer points, and there is one step. Otherwise its target is what the
+/// error on its own mesh is judged by. Collective.
+bool refines(const Task& task, const Comm& comm);
 
 /// Who is told of stages of a run, when the next one is to begin; either may be null.
 struct StageTellers {

@@ -69,7 +69,7 @@ simulation::SceneRun solveAsAsked(const Task& task, const RCP<const Comm>& comm,
     if (speaks) // of a stage whose files are there
       std::cout << describe(stage) << std::flush;
   };
-  const bool isSeries = task.refines();
+  const bool isSeries = refines(task, *comm);
   if (isSeries)
     watch.expectSeries();
   simulation::SceneRun run =
@@ -103,7 +103,8 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   const bool speaks = comm->getRank() == 0 && !options.quiet;
   const double start = Teuchos::Time::wallTime();
   const auto [given, notes] = readGiven(options, *comm);
-  const Task task = readTask(given, options.scene);
+  Task task = readTask(given, options.scene);
+  task.keepsMesh = !options.dat.empty(); // which has the deck's own nodes and elements
   const std::string& title = task.scene.title;
   if (!options.frd.empty())
     output::requireElasticBodies(task.scene, options.scene + ", option --frd");

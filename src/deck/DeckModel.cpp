@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Teuchos_Array.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace epafi::deck {
@@ -79,6 +80,38 @@ std::string ModelMaker::nodesNamed(const std::string& name, Numbers nodes) {
   const auto [place, isNew] = nodeNames_.try_emplace(nodes, name);
   if (isNew)
     model_.groups.nodes[name] = std::move(nodes);
+  return place->second;
+}
+
+std::string ModelMaker::placeNamed(int body, const std::string& name, const Numbers& nodes) {
+  std::map<Numbers, std::vector<Face>> facesAt; // by corners: those of one element alone are on the surface
+  const auto isNamed = [&](GlobalOrdinal node) {
+    return std::binary_search(nodes.begin(), nodes.end(), node);
+  };
+  for (const GlobalOrdinal element : bodies_.all()[body].elements)
+    for (int label = 1; label <= std::ssize(bodies_.typeOf(element).faces); ++label) {
+      Numbers corners = bodies_.cornersOf({element, label});
+      if (!std::all_of(corners.begin(), corners.end(), isNamed))
+        continue;
+      std::sort(corners.begin(), corners.end());
+      facesAt[corners].emplace_back(element, label);
+    }
+  std::vector<Face> faces;
+  std::set<GlobalOrdinal> left(nodes.begin(), nodes.end());
+  for (const auto& [corners, at] : facesAt) {
+    const Numbers all = bodies_.nodesOfFace(at.front());
+    if (at.size() > 1 || !std::all_of(all.begin(), all.end(), isNamed))
+      continue;
+    faces.push_back(at.front());
+    for (const GlobalOrdinal node : all)
+      left.erase(node);
+  }
+  if (!left.empty())
+    return nodesNamed(name, nodes);
+  std::sort(faces.begin(), faces.end());
+  const auto [place, isNew] = faceNames_.try_emplace(faces, name);
+  if (isNew)
+    model_.groups.surfaces[name] = faces;
   return place->second;
 }
 

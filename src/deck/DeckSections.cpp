@@ -23,27 +23,6 @@ Vector3d pointIn(const Deck& deck, GlobalOrdinal node) {
   return Vector3d::Map(deck.nodes.points[found - deck.nodes.numbers.begin()].data());
 }
 
-/// All nodes of an element in the plane of a face, or on the shell that its edges bound: its corners and what
-/// lies between them.
-void addFaceNodes(const Deck& deck, const DeckBodies& bodies, const std::pair<GlobalOrdinal, int>& face,
-                  std::set<GlobalOrdinal>& nodes) {
-  const Corners corners = bodies.cornersOf(face);
-  nodes.insert(corners.begin(), corners.end());
-  const auto all = bodies.nodesOf(face.first);
-  const std::size_t numCorners = bodies.numCornersOf(face.first);
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector3d a = pointIn(deck, corners[k]), b = pointIn(deck, corners[(k + 1) % corners.size()]);
-    if (all.size() > numCorners) { // the one next to the middle of the edge
-      const auto nearest = std::min_element(all.begin() + static_cast<std::ptrdiff_t>(numCorners), all.end(),
-                                            [&](GlobalOrdinal one, GlobalOrdinal other) {
-                                              return (pointIn(deck, one) - (a + b) / 2).squaredNorm() <
-                                                     (pointIn(deck, other) - (a + b) / 2).squaredNorm();
-                                            });
-      nodes.insert(*nearest);
-    }
-  }
-}
-
 /// Adds a face, as triangles around its first corner.
 void addGeometry(const Deck& deck, const DeckBodies& bodies, const std::pair<GlobalOrdinal, int>& face,
                  DeckSection& section) {
@@ -72,7 +51,8 @@ std::optional<DeckSection> sectionAt(const Deck& deck, const DeckBodies& bodies,
   std::set<GlobalOrdinal> nodes, side, own;
   std::map<Corners, GlobalOrdinal> cut; // the elements that have the section's faces
   for (const auto& face : surface.faces) {
-    addFaceNodes(deck, bodies, face, nodes);
+    const Corners all = bodies.nodesOfFace(face);
+    nodes.insert(all.begin(), all.end());
     addGeometry(deck, bodies, face, section);
     cut[sortedCorners(bodies, face)] = face.first;
     own.insert(face.first);

@@ -13,7 +13,8 @@
 namespace epafi::deck {
 
 struct DeckSection {
-  /// Elements on the side that the surface is defined from, those at its edges too, each with its nodes in it.
+  /// Elements on the side that the surface is defined from, those at its edges too, each with its nodes in
+  /// it.
   std::vector<std::pair<GlobalOrdinal, GlobalOrdinal>> nodesOfElements;
   // Of facets with straight edges between corners.
   double area = 0;

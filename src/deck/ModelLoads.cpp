@@ -116,7 +116,7 @@ void ModelMaker::addSupports() {
       continue;
     const std::string name = "support " + std::to_string(listOf(body).sublist("Supports").numParams() + 1);
     ParameterList& list = listOf(body).sublist("Supports").sublist(name);
-    list.set("Surface", nodesNamed(bodies_.all()[body].name + ' ' + name, nodes));
+    list.set("Surface", placeNamed(body, bodies_.all()[body].name + ' ' + name, nodes));
     const auto first =
         std::find_if(holds.begin(), holds.end(), [](const Hold& hold) { return hold.value != 0; });
     const double base = first == holds.end() ? 0 : first->value;

@@ -51,6 +51,8 @@ private:
   /// Name of a group of nodes or elements of the mesh that has these; equal ones have one name.
   std::string nodesNamed(const std::string& name, Numbers nodes);
   std::string elementsNamed(const std::string& name, Numbers elements);
+  /// The same of faces on a body's surface, if nodes are all of some; finer meshes have those, too.
+  std::string placeNamed(int body, const std::string& name, const Numbers& nodes);
 
   // ModelLoads.cpp
   [[nodiscard]] double factorAt(const std::string& amplitude, double delay, std::size_t step) const;
@@ -112,6 +114,7 @@ private:
   DeckBodies bodies_;
   DeckModel model_;
   std::map<Numbers, std::string> nodeNames_, elementNames_;
+  std::map<std::vector<std::pair<GlobalOrdinal, int>>, std::string> faceNames_;
   std::map<GlobalOrdinal, int> transformOf_; ///< place in Deck::transforms
   /// Of each step the factors of loads and supports, "body/load = 1, …".
   std::vector<std::string> loadFactors_, supportFactors_;

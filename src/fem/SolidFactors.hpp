@@ -11,8 +11,9 @@ namespace epafi::fem {
 
 class SolidFactors {
 public:
-  /// \throws InputError if a factor names a surface or set of nodes that is not there, the body is a membrane,
-  /// or the factors at the nodes of one element differ by so much that in between they are not positive.
+  /// \throws InputError if a factor names a surface or set of nodes that is not there, the body is a
+  /// membrane, or the factors at the nodes of one element differ by so much that they are not positive in
+  /// between.
   explicit SolidFactors(const SolidBody& body);
 
   /// At the nodes of an element; empty of a body without factors.

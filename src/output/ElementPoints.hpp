@@ -15,8 +15,8 @@ struct ElementPoint {
   fem::PointState state;
 };
 
-/// At the points by which elements are integrated fully, or by fewer; ascending by element and point, empty on
-/// all ranks but 0. Collective. Precondition: elasticity in space.
+/// At the points by which elements are integrated fully, or by fewer; ascending by element and point, empty
+/// on all ranks but 0. Collective. Precondition: elasticity in space.
 std::vector<ElementPoint> gatherElementPoints(const simulation::SolvedScene& solved, int body,
                                               fem::Integration integration);
 

@@ -154,6 +154,7 @@ class DecksTest(unittest.TestCase):
             found = re.search(r"estimated error ([\d.]+) %", done.stdout)
             self.assertEqual(float(found.group(1)) > 100 * share, code == 1)
             self.assertEqual("TargetMissed: the estimated error is" in done.stdout, code == 1)
+        self.assertIn("finer meshes would not have the nodes", done.stdout)
 
     def test_two_ranks_find_the_same(self):
         for row in table()[::6]:

@@ -348,6 +348,28 @@ class WrittenDecksTest(unittest.TestCase):
             self.assertAlmostEqual(sizes[0], 100, delta=1e-4)
             self.assertAlmostEqual(sizes[1], -pressure * 100, delta=1e-2)
 
+    def test_a_deck_that_names_faces_alone_is_refined_to_a_target(self):
+        mesh = self.blocks()
+        _, side = mesh.on("upper", 0, 0)
+        foot, _ = mesh.on("lower", 2, 0)
+        text = freecad(mesh, self.sets(mesh) + f"*NSET, NSET=Foot\n{lines(foot)}", "*TIE, NAME=t\nDEPContact, INDContact\n",
+                       "*ELASTIC\n210000, 0.3",
+                       f"*STEP\n*STATIC\n*BOUNDARY\nFoot, 1, 3\n*DLOAD\n{pressure_lines(side, 1.0)}")
+        (self.folder / "model.inp").write_text(text, encoding="utf-8")
+        found, works = [], []
+        for target in (None, 0.05):
+            command = [EPAFI, self.folder / "model.inp", "--quiet", "--report", self.folder / "report.xml",
+                       "--frd", self.folder / "epafi.frd", *(["--accuracy", str(target)] if target else [])]
+            subprocess.run(command, check=True, timeout=120)
+            report = xml.etree.ElementTree.parse(self.folder / "report.xml")
+            found.append(float(report.find(".//Parameter[@name='Relative Error']").get("value")))
+            works.append(float(report.find(".//Parameter[@name='Load Work']").get("value")))
+        self.assertGreater(found[0], 0.06)
+        self.assertLessEqual(found[1], 0.05)
+        # What the work grows by is the error's square, but at the corners the estimate of so coarse a mesh sees little.
+        self.assertGreater(works[1], works[0])
+        self.assertLessEqual(works[1] - works[0], (2 * found[0]) ** 2 * works[1])
+
     def test_what_cannot_be_solved_is_named_with_its_line(self):
         mesh = self.blocks()
         text = prepomax(mesh, re.sub("NSET=", "Nset=", self.sets(mesh)), "", "*Step\n*Frequency\n10\n")
