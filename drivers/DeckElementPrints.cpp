@@ -75,7 +75,7 @@ void DeckPrints::addContactForces(const deck::ContactPair& pair, const simulatio
       "   total surface force (fx,fy,fz)\n\n  " + inColumns(total) + '\n';
 }
 
-/// CalculiX prints all that the sides are apart along each other; a step's slip is counted from its beginning.
+/// CalculiX prints all that sides have moved along each other, where a step's slip begins with the step.
 void DeckPrints::countSlip(const simulation::SceneRun& run, const Values& values) {
   for (std::size_t c = 0; c < values.contacts.size(); ++c)
     for (const auto& [node, contact] : values.contacts[c])

@@ -4,6 +4,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/Checkpoint.hpp"
 #include "epafi/output/Fingerprint.hpp"
@@ -12,6 +13,7 @@
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -67,8 +69,13 @@ std::string stageOf(const simulation::RunResult& result) {
 
 } // namespace
 
-RunFiles::RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started)
-    : options_(options), watch_(watch), comm_(std::move(comm)), started_(started), lastStage_(started) {}
+RunFiles::RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started,
+                   const std::string& notes)
+    : options_(options), watch_(watch), comm_(std::move(comm)), started_(started), lastStage_(started) {
+  constexpr std::size_t wordInFront = 14; // "  deck        "
+  for (const std::string& line : linesOf(notes))
+    notes_.push_back(line.substr(std::min(line.size(), wordInFront)));
+}
 
 /// Runs `work`, which writes `file` and returns a line that says so; notes what all ranks agree that it could
 /// not.
@@ -115,7 +122,7 @@ void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
     run.result.reason += "; not all files of this " + stageOf(run.result) +
                          " could be written: what is missing may be there of a " + stageOf(run.result) +
                          " before";
-  enterTimes(run);
+  enterTimesAndNotes(run);
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
       output::writeReport(simulation::reportOf(run.result), file, files);
@@ -180,10 +187,11 @@ void RunFiles::preparePrints(simulation::SceneRun& run, output::FileSet& files) 
   });
 }
 
-void RunFiles::enterTimes(simulation::SceneRun& run) {
+void RunFiles::enterTimesAndNotes(simulation::SceneRun& run) {
   const double now = Teuchos::Time::wallTime();
   run.result.times.output = maxOverRanks(*comm_, output_ + now - began_);
   run.result.times.total = maxOverRanks(*comm_, now - started_);
+  run.result.notes = notes_;
 }
 
 /// Whoever finds this report when the run was killed is warned.
@@ -241,7 +249,7 @@ void RunFiles::finish(simulation::SceneRun& run) {
     failures_.insert(failures_.begin(), lost_.begin(), lost_.end());
     return;
   }
-  enterTimes(run);
+  enterTimesAndNotes(run);
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
       output::writeReport(simulation::reportOf(run.result), file, *comm_);

@@ -114,7 +114,7 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
               << notes << std::flush;
 
   RunWatch watch(options, comm);
-  RunFiles files(options, watch, comm, start);
+  RunFiles files(options, watch, comm, start, notes);
   simulation::SceneRun run = solveAsAsked(task, comm, watch, files, speaks);
   const bool isInterrupted = run.result.status == simulation::RunStatus::interrupted;
   const std::string signal = isInterrupted ? watch.signal() : "";
