@@ -145,6 +145,37 @@ class DecksTest(unittest.TestCase):
                 compared += 1
         self.assertGreaterEqual(compared, 20)
 
+    def test_contacts_are_printed_step_by_step_as_calculix_has_them(self):
+        if shutil.which("ccx") is None:
+            self.skipTest("ccx is not installed")
+        text = re.sub(r",\s*NLGEOM(=YES)?", "", deck("friction2"), flags=re.I)
+        text = re.sub(r"(\*END STEP)", r"*CONTACT PRINT\nCDIS,CSTR\n\1", text, flags=re.I)
+        (self.folder / "theirs.inp").write_text(text, encoding="latin-1")
+        (self.folder / "ours.inp").write_text(text, encoding="latin-1")
+        subprocess.run(["ccx", "theirs"], cwd=self.folder, capture_output=True, timeout=120, check=True)
+        subprocess.run([*LAUNCH, "2", EPAFI, self.folder / "ours.inp", "--quiet", "--dat", self.folder / "ours.dat"],
+                       check=True, timeout=120)
+
+        def printed(name, words):
+            blocks = {}
+            pattern = rf"\n {words} \(slave node,\S+ for all contact elements and time +(\S+)\n\n((?: .*\n)*)"
+            for time, block in re.findall(pattern, (self.folder / name).read_text(encoding="utf-8")):
+                rows = (line.split() for line in block.splitlines())
+                blocks[float(time)] = {int(row[0]): [float(x) for x in row[1:]] for row in rows}
+            return blocks
+
+        for words in ("relative contact displacement", "contact stress"):
+            theirs, ours = printed("theirs.dat", words), printed("ours.dat", words)
+            self.assertEqual(len(ours), 4)
+            for time, nodes in ours.items():
+                self.assertEqual(nodes.keys(), theirs[time].keys())
+                for node, values in nodes.items():
+                    expected = theirs[time][node]
+                    along = max(abs(x) for row in theirs[time].values() for x in row[1:])
+                    self.assertAlmostEqual(values[0], expected[0], delta=0.08 * abs(expected[0]))  # a tail of tension there
+                    for x, y in zip(values[1:], expected[1:], strict=True):
+                        self.assertAlmostEqual(x, y, delta=2e-3 * along, msg=f"{words} at {time} of {node}")
+
     def test_a_target_is_judged_on_the_mesh_of_the_deck(self):
         (self.folder / "beam10p.inp").write_text(deck("beam10p"), encoding="latin-1")
         for share, code in ((0.2, 0), (0.02, 1)):
