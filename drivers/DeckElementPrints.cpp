@@ -75,15 +75,7 @@ void DeckPrints::addContactForces(const deck::ContactPair& pair, const simulatio
       "   total surface force (fx,fy,fz)\n\n  " + inColumns(total) + '\n';
 }
 
-/// CalculiX prints all that sides have moved along each other, where a step's slip begins with the step.
-void DeckPrints::countSlip(const simulation::SceneRun& run, const Values& values) {
-  for (std::size_t c = 0; c < values.contacts.size(); ++c)
-    for (const auto& [node, contact] : values.contacts[c])
-      for (std::size_t t = 0; t < 2; ++t)
-        slipped_[run.decomposition->contacts[c].name][node][t] += contact[1 + t];
-}
-
-/// Of nodes that are pressed. Where friction sticks by a slope it shifts by traction/slope.
+/// Of nodes that are pressed.
 void DeckPrints::addContactNodes(const deck::ContactPair& pair, const std::string& field,
                                  const simulation::SceneRun& run, const Values& values) {
   constexpr std::size_t pressure = 3;
@@ -92,13 +84,9 @@ void DeckPrints::addContactNodes(const deck::ContactPair& pair, const std::strin
     const std::string& own = run.decomposition->contacts[c].name;
     if (own != name && !own.starts_with(name + ' '))
       continue;
-    const double slope = deck_.interactions.at(pair.interaction).stickSlope.value_or(0);
-    for (auto [node, contact] : values.contacts[c]) {
-      for (std::size_t t = 1; t < 3; ++t)
-        contact[t] = slipped_[own][node][t - 1] + (slope > 0 ? contact[pressure + t] / slope : 0);
+    for (const auto& [node, contact] : values.contacts[c])
       if (contact[pressure] > 0)
         text_ += printedRow(node, std::span(contact).subspan(field == "CDIS" ? 0 : pressure, 3));
-    }
   }
 }
 

@@ -75,12 +75,13 @@ DeckPrints::Points DeckPrints::pointsOf(const simulation::SolvedScene& solved) c
 }
 
 /// On rank 0 of all rows. Collective.
-DeckPrints::Contacts DeckPrints::contactsOf(const simulation::SceneRun& run) const {
+DeckPrints::Contacts DeckPrints::contactsOf(const simulation::SceneRun& run) {
   const simulation::SolvedScene solved = run.solved();
   Contacts contacts;
   for (int c = 0; c < std::ssize(run.decomposition->contacts); ++c) {
-    const std::vector<output::ContactValues> values =
+    std::vector<output::ContactValues> values =
         output::gatherContactValues(solved, c, run.evaluation.contacts[c]);
+    slip_.enter(solved, c, values);
     const contact::ContactLayout& layout = run.decomposition->contacts[c];
     const std::vector<std::size_t> rows = layout.ownRows();
     contacts.emplace_back();
@@ -122,7 +123,7 @@ std::vector<simulation::SectionForce> DeckPrints::sectionsOf(const simulation::S
 }
 
 /// Collective.
-DeckPrints::Values DeckPrints::valuesOf(simulation::SceneRun& run, const std::vector<Print>& prints) const {
+DeckPrints::Values DeckPrints::valuesOf(simulation::SceneRun& run, const std::vector<Print>& prints) {
   const simulation::SolvedScene solved = run.solved();
   const auto isAskedFor = [&](Print::Of kind) {
     bool own = std::any_of(prints.begin(), prints.end(), [&](const Print& p) { return p.of == kind; });
@@ -175,7 +176,6 @@ void DeckPrints::add(simulation::SceneRun& run, std::size_t step) {
   for (std::size_t k = 0; k <= step && k < deck_.steps.size(); ++k)
     time += deck_.steps[k].period;
   values.time = inColumns(std::array{time}, "%.7E");
-  countSlip(run, values);
   std::size_t numSections = 0;
   for (const Print& print : prints) {
     if (print.of == Print::Of::nodes)

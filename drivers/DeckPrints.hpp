@@ -49,17 +49,16 @@ private:
   };
 
   [[nodiscard]] std::vector<deck::Print> printsOf(std::size_t step) const;
-  [[nodiscard]] Values valuesOf(simulation::SceneRun& run, const std::vector<deck::Print>& prints) const;
+  [[nodiscard]] Values valuesOf(simulation::SceneRun& run, const std::vector<deck::Print>& prints);
   [[nodiscard]] Nodes nodesOf(const simulation::SolvedScene& solved) const;
   [[nodiscard]] Points pointsOf(const simulation::SolvedScene& solved) const;
-  [[nodiscard]] Contacts contactsOf(const simulation::SceneRun& run) const;
+  [[nodiscard]] Contacts contactsOf(const simulation::SceneRun& run);
   [[nodiscard]] std::vector<simulation::SectionForce>
   sectionsOf(const simulation::SolvedScene& solved, const std::vector<deck::Print>& prints) const;
 
   void addNodes(const deck::Print& print, const Values& values);
   void addElements(const deck::Print& print, const Values& values);
   void addContacts(const deck::Print& print, const simulation::SceneRun& run, const Values& values);
-  void countSlip(const simulation::SceneRun& run, const Values& values);
   void addContactForces(const deck::ContactPair& pair, const simulation::RunResult& result,
                         const std::string& time);
   void addContactNodes(const deck::ContactPair& pair, const std::string& field,
@@ -68,8 +67,7 @@ private:
 
   deck::Deck deck_;
   std::vector<std::vector<GlobalOrdinal>> nodeNumbers_, elementNumbers_; ///< of each body
-  /// What has slipped in all steps, of each contact by its name.
-  std::map<std::string, std::map<GlobalOrdinal, std::array<double, 2>>> slipped_;
+  output::TotalSlip slip_;
   std::string text_;
 };
 

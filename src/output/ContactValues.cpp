@@ -45,4 +45,19 @@ std::vector<ContactValues> gatherContactValues(const simulation::SolvedScene& so
   return gatherOnFirst(solved.comm(), values);
 }
 
+void TotalSlip::enter(const simulation::SolvedScene& solved, int contact,
+                      std::vector<ContactValues>& values) {
+  const contact::ContactLayout& layout = solved.decomposition.contacts[contact];
+  const double slope = solved.scene.contacts[layout.number].stickSlope;
+  const std::vector<std::size_t> own = layout.ownRows();
+  constexpr std::size_t slip = 1, traction = 4;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    std::array<double, 2>& total = slipped_[{layout.number, layout.firstBody, layout.firstNodes[own[k]]}];
+    for (std::size_t t = 0; t < 2; ++t) {
+      total[t] += values[k][slip + t];
+      values[k][slip + t] = total[t] + (slope > 0 ? values[k][traction + t] / slope : 0);
+    }
+  }
+}
+
 } // namespace epafi::output

@@ -151,8 +151,10 @@ void FrdFile::add(const simulation::SolvedScene& solved, const simulation::Evalu
   const std::vector<WholeBody> bodies = gatherBodies(solved);
   const std::vector<contact::ContactLayout>& contacts = solved.decomposition.contacts;
   std::vector<std::vector<ContactValues>> contactValues;
-  for (int c = 0; c < std::ssize(contacts); ++c)
+  for (int c = 0; c < std::ssize(contacts); ++c) {
     contactValues.push_back(gatherContactValues(solved, c, evaluation.contacts[c]));
+    slip_.enter(solved, c, contactValues.back());
+  }
   collectively(solved.comm(), [&] {
     if (solved.comm().getRank() > 0)
       return;

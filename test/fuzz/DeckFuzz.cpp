@@ -1,5 +1,5 @@
-/// Any bytes as an input deck: it is read, what it refers to is there, and it becomes a scene with a mesh; or it
-/// is refused in a sentence.
+/// Any bytes as an input deck: it is read, what it refers to is there, and it becomes a scene with a mesh; or
+/// it is refused in a sentence.
 
 #include "Refusals.hpp"
 

@@ -149,11 +149,12 @@ class DecksTest(unittest.TestCase):
         if shutil.which("ccx") is None:
             self.skipTest("ccx is not installed")
         text = re.sub(r",\s*NLGEOM(=YES)?", "", deck("friction2"), flags=re.I)
-        text = re.sub(r"(\*END STEP)", r"*CONTACT PRINT\nCDIS,CSTR\n\1", text, flags=re.I)
+        text = re.sub(r"(\*END STEP)", r"*CONTACT PRINT\nCDIS,CSTR\n*CONTACT FILE\nCDIS,CSTR\n\1", text, flags=re.I)
         (self.folder / "theirs.inp").write_text(text, encoding="latin-1")
         (self.folder / "ours.inp").write_text(text, encoding="latin-1")
         subprocess.run(["ccx", "theirs"], cwd=self.folder, capture_output=True, timeout=120, check=True)
-        subprocess.run([*LAUNCH, "2", EPAFI, self.folder / "ours.inp", "--quiet", "--dat", self.folder / "ours.dat"],
+        subprocess.run([*LAUNCH, "2", EPAFI, self.folder / "ours.inp", "--quiet", "--dat", self.folder / "ours.dat",
+                        "--frd", self.folder / "ours.frd"],
                        check=True, timeout=120)
 
         def printed(name, words):
@@ -175,6 +176,18 @@ class DecksTest(unittest.TestCase):
                     self.assertAlmostEqual(values[0], expected[0], delta=0.08 * abs(expected[0]))  # a tail of tension there
                     for x, y in zip(values[1:], expected[1:], strict=True):
                         self.assertAlmostEqual(x, y, delta=2e-3 * along, msg=f"{words} at {time} of {node}")
+
+        def slips(name):
+            text = (self.folder / name).read_text(encoding="utf-8")
+            block = text[text.rindex(" -4  CONTACT"):]
+            return {int(line[3:13]): [float(line[25:37]), float(line[37:49])]
+                    for line in block[:block.index("\n -3")].splitlines() if line.startswith(" -1")}
+
+        theirs, ours = slips("theirs.frd"), slips("ours.frd")
+        self.assertTrue(ours)
+        for node, slip in ours.items():  # in the last step, after sliding to and fro
+            for x, y in zip(slip, theirs[node], strict=True):
+                self.assertAlmostEqual(x, y, delta=2e-3)
 
     def test_a_target_is_judged_on_the_mesh_of_the_deck(self):
         (self.folder / "beam10p.inp").write_text(deck("beam10p"), encoding="latin-1")
