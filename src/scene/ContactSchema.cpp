@@ -100,8 +100,8 @@ void describePair(Teuchos::ParameterList& contact) {
            "surface.",
            "");
   addReal(pair, "Distance", 0.0,
-          "Nodes that are farther than this from the other side cannot meet it and get no inequality; 0: no "
-          "limit. Not of membranes on rectangles.",
+          "Nodes that are farther than this from the other side get no inequality; 0: no limit. Should they "
+          "meet all the same, the run ends with code 1 and `MissedContact`. Not of membranes on rectangles.",
           0.0);
   addChoice(pair, "Coupling", "auto",
             "How two surfaces are coupled: \"nodes\" that face each other in pairs, where the meshes match; "

@@ -82,20 +82,6 @@ std::vector<AccurateSum> sumContacts(const SolvedScene& solved, const Evaluation
   return sums;
 }
 
-/// Collective.
-double largestDisplacement(const SolvedScene& solved, int body) {
-  const auto& problem = solved.decomposition.problem;
-  double largest = 0;
-  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
-    if (problem.subdomains[s].body == body && solved.solution.displacement[s].size() > 0)
-      largest = std::max(largest, solved.solution.displacement[s]
-                                      .reshaped(problem.components, Eigen::AutoSize)
-                                      .colwise()
-                                      .norm()
-                                      .maxCoeff());
-  return maxOverRanks(*problem.comm, largest);
-}
-
 /// As stressesAtNodes, of a body that is made of what `asked` is. Collective.
 std::vector<fem::SymmetricTensor> tensorsAtNodes(const SolvedScene& solved, int body,
                                                  const scene::Body& asked) {
@@ -180,6 +166,19 @@ Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* es
   for (int contact = 0; contact < std::ssize(solved.decomposition.contacts); ++contact)
     result.contacts.push_back(contactState(solved, contact));
   return result;
+}
+
+double largestDisplacement(const SolvedScene& solved, int body) {
+  const auto& problem = solved.decomposition.problem;
+  double largest = 0;
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+    if (problem.subdomains[s].body == body && solved.solution.displacement[s].size() > 0)
+      largest = std::max(largest, solved.solution.displacement[s]
+                                      .reshaped(problem.components, Eigen::AutoSize)
+                                      .colwise()
+                                      .norm()
+                                      .maxCoeff());
+  return maxOverRanks(*problem.comm, largest);
 }
 
 std::vector<BodyResult> bodyResults(const SolvedScene& solved, const Evaluation& evaluation) {

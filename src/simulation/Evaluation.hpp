@@ -48,6 +48,9 @@ struct Evaluation {
 /// Collective.
 Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* estimate = nullptr);
 
+/// The longest displacement of a node of a body; of membranes the largest deflection. Collective.
+double largestDisplacement(const SolvedScene& solved, int body);
+
 /// What a body has come to.
 struct BodyResult {
   std::string name;

@@ -252,6 +252,8 @@ std::string statusOf(const RunResult& result) {
     return "TargetMissed";
   case RunStatus::largeDisplacements:
     return "LargeDisplacements";
+  case RunStatus::missedContact:
+    return "MissedContact";
   case RunStatus::interrupted:
     return "Interrupted";
   case RunStatus::running:

@@ -28,8 +28,9 @@ enum class RunStatus {
   targetMissed, ///< solved, but not as accurately as was asked for
   /// Solved, but strains or rotations are so large that the theory does not hold, where it was to hold.
   largeDisplacements,
-  interrupted, ///< by a signal
-  running      ///< on to the next mesh or load step
+  missedContact, ///< solved, but nodes meet that a contact's `Distance` has left out
+  interrupted,   ///< by a signal
+  running        ///< on to the next mesh or load step
 };
 
 /// A coarser mesh on which the contact zone was found first.

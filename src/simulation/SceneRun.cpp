@@ -3,6 +3,7 @@
 #include "epafi/simulation/GuaranteedBound.hpp"
 
 #include "epafi/simulation/CoarserScene.hpp"
+#include "epafi/simulation/LeftOutNodes.hpp"
 #include "epafi/simulation/RowWords.hpp"
 
 #include "epafi/accuracy/ContactTransfer.hpp"
@@ -203,6 +204,11 @@ void evaluateRun(SceneRun& run) {
     result.error = {run.error->energyNorm, run.error->discretisation, run.solution.algebraicError, 1};
   result.times.recovery =
       run.solver->times().recovery + maxOverRanks(solved.comm(), Teuchos::Time::wallTime() - began);
+  if (const std::string overlaps = overlapsBeyondDistance(solved);
+      !overlaps.empty() && result.status == RunStatus::converged) {
+    result.status = RunStatus::missedContact;
+    result.reason = overlaps;
+  }
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
   if (const std::string large = largeDeformations(result, Deformation::doubtful); !large.empty())
     result.doubts += (result.doubts.empty() ? "" : ". ") + large;
