@@ -1,79 +1,166 @@
 #include "DeckPrints.hpp"
 
+#include "PrintText.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/deck/DeckSections.hpp"
 #include "epafi/output/BodyFields.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <span>
 
 namespace epafi::drivers {
-namespace {
 
-std::string inColumns(std::span<const double> values, const char* format) {
-  std::string text;
-  std::array<char, 32> number{};
-  for (const double value : values) {
-    std::snprintf(number.data(), number.size(), format, value);
-    text += number.data();
-  }
-  return text;
-}
-
-std::string printedRow(GlobalOrdinal node, std::span<const double> values) {
-  const std::string number = std::to_string(node);
-  return std::string(10 - std::min<std::size_t>(10, number.size()), ' ') + number +
-         inColumns(values, " %13.6E") + '\n';
-}
-
-std::string printTitle(const std::string& what, const std::string& time) {
-  return "\n " + what + " and time  " + time + "\n\n";
-}
-
-} // namespace
+using deck::Print;
 
 DeckPrints::DeckPrints(const std::string& scene) {
   if (!deck::isDeck(scene))
     return;
   deck_ = deck::readDeck(scene);
-  nodeNumbers_ = modelOf(deck_, scene).nodeNumbers;
+  deck::DeckModel model = modelOf(deck_, scene);
+  nodeNumbers_ = std::move(model.nodeNumbers);
+  elementNumbers_ = std::move(model.elementNumbers);
+}
+
+/// Those of a kind hold until a step has others of it.
+std::vector<Print> DeckPrints::printsOf(std::size_t step) const {
+  std::vector<Print> result;
+  for (const Print::Of kind :
+       {Print::Of::nodes, Print::Of::elements, Print::Of::contact, Print::Of::section}) {
+    const auto isOfKind = [&](const Print& print) { return print.of == kind; };
+    for (std::size_t k = step + 1; k-- > 0;) {
+      const std::vector<Print>& prints = deck_.steps[k].prints;
+      std::copy_if(prints.begin(), prints.end(), std::back_inserter(result), isOfKind);
+      if (std::any_of(prints.begin(), prints.end(), isOfKind))
+        break;
+    }
+  }
+  return result;
 }
 
 /// On rank 0 of all nodes. Collective.
-DeckPrints::Values DeckPrints::valuesOf(const simulation::SolvedScene& solved) const {
-  Values values;
+DeckPrints::Nodes DeckPrints::nodesOf(const simulation::SolvedScene& solved) const {
+  Nodes nodes;
   const std::size_t components = solved.decomposition.problem.components;
   for (int b = 0; b < std::ssize(solved.decomposition.bodies); ++b) {
     const std::vector<double> u = gatherOnFirst(solved.comm(), output::gatherBodyFields(solved, b).u);
     const std::vector<Vector3> forces =
         gatherOnFirst(solved.comm(), simulation::supportForcesAtNodes(solved, b));
     for (std::size_t k = 0; k < forces.size() && !nodeNumbers_.empty(); ++k) {
-      NodeValues& node = values[nodeNumbers_[b].at(k)];
+      NodeValues& node = nodes[nodeNumbers_[b].at(k)];
       std::copy_n(u.begin() + k * components, components, node.displacement.begin());
       for (std::size_t d = 0; d < 3; ++d)
         node.force[d] += forces[k][d];
     }
   }
+  return nodes;
+}
+
+/// On rank 0 of all elements of solids. Collective.
+DeckPrints::Points DeckPrints::pointsOf(const simulation::SolvedScene& solved) const {
+  std::vector<int> isReduced; // as the deck has it: elements that stand alone are integrated fully
+  collectively(solved.comm(), [&] {
+    if (nodeNumbers_.empty())
+      return;
+    const deck::DeckBodies bodies(deck_);
+    for (const deck::DeckBody& body : bodies.all())
+      isReduced.push_back(body.type->isReduced ? 1 : 0);
+  });
+  isReduced = gatherOnAll(solved.comm(), isReduced);
+  Points points;
+  for (int b = 0; b < std::ssize(isReduced); ++b)
+    for (const output::ElementPoint& point : output::gatherElementPoints(
+             solved, b, isReduced[b] != 0 ? fem::Integration::reduced : fem::Integration::full))
+      points[elementNumbers_[b].at(point.element)].push_back(point.state);
+  return points;
+}
+
+/// On rank 0 of all rows. Collective.
+DeckPrints::Contacts DeckPrints::contactsOf(const simulation::SceneRun& run) {
+  const simulation::SolvedScene solved = run.solved();
+  Contacts contacts;
+  for (int c = 0; c < std::ssize(run.decomposition->contacts); ++c) {
+    std::vector<output::ContactValues> values =
+        output::gatherContactValues(solved, c, run.evaluation.contacts[c]);
+    slip_.enter(solved, c, values);
+    const contact::ContactLayout& layout = run.decomposition->contacts[c];
+    const std::vector<std::size_t> rows = layout.ownRows();
+    contacts.emplace_back();
+    for (std::size_t k = 0; k < values.size() && !nodeNumbers_.empty(); ++k)
+      contacts.back()[nodeNumbers_[layout.firstBody].at(layout.firstNodes[rows[k]])] = values[k];
+  }
+  return contacts;
+}
+
+/// On all ranks. Collective.
+std::vector<simulation::SectionForce> DeckPrints::sectionsOf(const simulation::SolvedScene& solved,
+                                                             const std::vector<Print>& prints) const {
+  std::vector<std::vector<simulation::SectionShare>> shares;
+  collectively(solved.comm(), [&] {
+    const auto placeIn = [](const std::vector<GlobalOrdinal>& numbers, GlobalOrdinal number) {
+      return std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin();
+    };
+    if (nodeNumbers_.empty())
+      return;
+    const deck::DeckBodies bodies(deck_);
+    for (const Print& print : prints) {
+      if (print.of != Print::Of::section)
+        continue;
+      shares.emplace_back();
+      if (const auto section = sectionAt(deck_, bodies, deck_.surfaces.at(print.set)))
+        for (const auto& [element, node] : section->nodesOfElements) {
+          const int body = bodies.ofElement(element);
+          shares.back().push_back(
+              {body, placeIn(bodies.all()[body].elements, element), placeIn(bodies.all()[body].nodes, node)});
+        }
+    }
+  });
+  const int numSections = maxOverRanks(solved.comm(), static_cast<int>(shares.size()));
+  shares.resize(numSections);
+  std::vector<simulation::SectionForce> forces;
+  for (const std::vector<simulation::SectionShare>& own : shares)
+    forces.push_back(simulation::sectionForce(solved, gatherOnAll(solved.comm(), own)));
+  return forces;
+}
+
+/// Collective.
+DeckPrints::Values DeckPrints::valuesOf(simulation::SceneRun& run, const std::vector<Print>& prints) {
+  const simulation::SolvedScene solved = run.solved();
+  const auto isAskedFor = [&](Print::Of kind) {
+    bool own = std::any_of(prints.begin(), prints.end(), [&](const Print& p) { return p.of == kind; });
+    for (const deck::Step& step : deck_.steps) // what slips is counted from the first one on
+      for (const Print& print : step.prints)
+        own = own || (kind == Print::Of::contact && print.of == kind);
+    return maxOverRanks(solved.comm(), own ? 1 : 0) > 0;
+  };
+  Values values;
+  const bool areSolids = run.scene.bodies.front().physics == fem::Physics::elasticity3d;
+  if (isAskedFor(Print::Of::nodes))
+    values.nodes = nodesOf(solved);
+  if (isAskedFor(Print::Of::elements) && areSolids)
+    values.points = pointsOf(solved);
+  if (isAskedFor(Print::Of::contact))
+    values.contacts = contactsOf(run);
+  if (isAskedFor(Print::Of::section))
+    values.sections = sectionsOf(solved, prints);
   return values;
 }
 
-void DeckPrints::addNodes(const deck::Print& print, const Values& values, const std::string& time) {
+void DeckPrints::addNodes(const Print& print, const Values& values) {
   const auto addField = [&](const std::string& what, const char* sum,
                             std::array<double, 3> NodeValues::*field) {
     std::array<double, 3> total{};
     std::string rows;
     for (const GlobalOrdinal number : deck_.nodeSets.at(print.set))
-      if (const auto node = values.find(number); node != values.end()) {
+      if (const auto node = values.nodes.find(number); node != values.nodes.end()) {
         rows += printedRow(number, node->second.*field);
         for (std::size_t d = 0; d < 3; ++d)
           total[d] += (node->second.*field)[d];
       }
-    if (print.totals != deck::Print::Totals::alone || sum == nullptr)
-      text_ += printTitle(what + " for set " + print.set, time) + rows;
-    if (print.totals != deck::Print::Totals::none && sum != nullptr)
-      text_ += printTitle(std::string(sum) + " for set " + print.set, time) + "  " +
-               inColumns(total, " %13.6E") + '\n';
+    if (print.totals != Print::Totals::alone || sum == nullptr)
+      text_ += printTitle(what + " for set " + print.set, values.time) + rows;
+    if (print.totals != Print::Totals::none && sum != nullptr)
+      text_ += printTitle(std::string(sum) + " for set " + print.set, values.time) + "  " + inColumns(total) +
+               '\n';
   };
   for (const std::string& field : print.fields)
     if (field == "U")
@@ -82,48 +169,23 @@ void DeckPrints::addNodes(const deck::Print& print, const Values& values, const 
       addField("forces (fx,fy,fz)", "total force (fx,fy,fz)", &NodeValues::force);
 }
 
-/// Bodies that have faces of both surfaces count together.
-void DeckPrints::addContacts(const deck::Print& print, const simulation::RunResult& result,
-                             const std::string& time) {
-  for (const deck::ContactPair& pair : deck_.contacts) {
-    if (print.fields.empty() || (!print.dependent.empty() && print.dependent != pair.dependent) ||
-        (!print.independent.empty() && print.independent != pair.independent))
-      continue;
-    const std::string name = pair.dependent + " - " + pair.independent;
-    std::array<double, 3> total{};
-    const auto add = [&](const auto& joints) {
-      for (const auto& joint : joints)
-        if (joint.name == name || joint.name.starts_with(name + ' '))
-          for (std::size_t d = 0; d < 3; ++d)
-            total[d] += joint.resultant[d];
-    };
-    add(result.contacts);
-    add(result.ties);
-    text_ +=
-        printTitle("statistics for slave set " + pair.dependent + ", master set " + pair.independent, time) +
-        "   total surface force (fx,fy,fz)\n\n  " + inColumns(total, " %13.6E") + '\n';
-  }
-}
-
 void DeckPrints::add(simulation::SceneRun& run, std::size_t step) {
-  const Values values = valuesOf(run.solved());
-  if (deck_.steps.empty())
-    return;
+  const std::vector<Print> prints = deck_.steps.empty() ? std::vector<Print>() : printsOf(step);
+  Values values = valuesOf(run, prints);
   double time = 0;
-  for (std::size_t k = 0; k <= step; ++k)
-    time += deck_.steps.at(k).period;
-  const std::string shown = inColumns(std::array{time}, "%.7E");
-  for (const bool areOfNodes : {true, false}) {
-    const auto isOfKind = [&](const deck::Print& print) { return print.set.empty() != areOfNodes; };
-    const auto hasNone = [&](const std::vector<deck::Print>& prints) {
-      return std::none_of(prints.begin(), prints.end(), isOfKind);
-    };
-    std::size_t last = step;
-    while (last > 0 && hasNone(deck_.steps[last].prints))
-      --last;
-    for (const deck::Print& print : deck_.steps[last].prints)
-      if (isOfKind(print))
-        areOfNodes ? addNodes(print, values, shown) : addContacts(print, run.result, shown);
+  for (std::size_t k = 0; k <= step && k < deck_.steps.size(); ++k)
+    time += deck_.steps[k].period;
+  values.time = inColumns(std::array{time}, "%.7E");
+  std::size_t numSections = 0;
+  for (const Print& print : prints) {
+    if (print.of == Print::Of::nodes)
+      addNodes(print, values);
+    else if (print.of == Print::Of::elements)
+      addElements(print, values);
+    else if (print.of == Print::Of::contact)
+      addContacts(print, run, values);
+    else
+      addSection(print, values.sections.at(numSections++), values.time);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/Checkpoint.hpp"
 #include "epafi/output/FieldSteps.hpp"
@@ -13,6 +14,7 @@
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -101,8 +103,13 @@ std::string stageOf(const simulation::RunResult& result) {
 
 } // namespace
 
-RunFiles::RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started)
-    : options_(options), watch_(watch), comm_(std::move(comm)), started_(started), lastStage_(started) {}
+RunFiles::RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started,
+                   const std::string& notes)
+    : options_(options), watch_(watch), comm_(std::move(comm)), started_(started), lastStage_(started) {
+  constexpr std::size_t wordInFront = 14; // "  deck        "
+  for (const std::string& line : linesOf(notes))
+    notes_.push_back(line.substr(std::min(line.size(), wordInFront)));
+}
 
 /// Runs `work`, which writes `file` and returns a line that says so; notes what all ranks agree that it could
 /// not.
@@ -168,7 +175,7 @@ void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
     run.result.reason += "; not all files of this " + stageOf(run.result) +
                          " could be written: what is missing may be there of a " + stageOf(run.result) +
                          " before";
-  enterTimes(run);
+  enterTimesAndNotes(run);
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
       output::writeReport(simulation::reportOf(run.result), file, files);
@@ -214,7 +221,9 @@ void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
     const std::vector<simulation::StepResult>& steps = run.result.steps;
     if (steps.size() < numEarlier_ + 2) // of other meshes before
       collectively(*comm_, [&] {
-        frd_ = output::FrdFile(comm_->getRank() == 0 ? numberingOf(options_.scene) : output::FrdNumbering());
+        const bool isOwnMesh = !run.result.target; // finer ones have numbers of their own
+        frd_ = output::FrdFile(comm_->getRank() == 0 && isOwnMesh ? numberingOf(options_.scene)
+                                                                  : output::FrdNumbering());
       });
     if (steps.empty())
       frd_.add(run.solved(), run.evaluation);
@@ -236,10 +245,11 @@ void RunFiles::preparePrints(simulation::SceneRun& run, output::FileSet& files) 
   });
 }
 
-void RunFiles::enterTimes(simulation::SceneRun& run) {
+void RunFiles::enterTimesAndNotes(simulation::SceneRun& run) {
   const double now = Teuchos::Time::wallTime();
   run.result.times.output = maxOverRanks(*comm_, output_ + now - began_);
   run.result.times.total = maxOverRanks(*comm_, now - started_);
+  run.result.notes = notes_;
 }
 
 /// Whoever finds this report when the run was killed is warned.
@@ -299,7 +309,7 @@ void RunFiles::finish(simulation::SceneRun& run) {
     failures_.insert(failures_.begin(), lost_.begin(), lost_.end());
     return;
   }
-  enterTimes(run);
+  enterTimesAndNotes(run);
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
       output::writeReport(simulation::reportOf(run.result), file, *comm_);

@@ -25,8 +25,9 @@ std::vector<std::filesystem::path> reportsOf(const Options& options);
 /// collective; what they note is the same on all ranks.
 class RunFiles {
 public:
-  /// \param started  wall time at the start of the run
-  RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started);
+  /// \param started  wall time at the start of the run  \param notes  lines for the reports
+  RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started,
+           const std::string& notes);
 
   /// Load steps that the watch knows as done are not told of again: their fields are those in the file
   /// beside the checkpoint; which are not there, finish() says.
@@ -52,13 +53,14 @@ private:
   void prepareFields(simulation::SceneRun& run, output::FileSet& files);
   void prepareFrd(simulation::SceneRun& run, output::FileSet& files);
   void preparePrints(simulation::SceneRun& run, output::FileSet& files);
-  void enterTimes(simulation::SceneRun& run);
+  void enterTimesAndNotes(simulation::SceneRun& run);
   void announce(const simulation::SceneRun& run);
   void noteLostFields();
 
   const Options& options_;
   const RunWatch& watch_;
   RCP<const Comm> comm_;
+  std::vector<std::string> notes_;
   double started_, began_ = 0; ///< wall time: of the run, of the work at hand
   double output_ = 0;          ///< seconds that all before it took
   double lastStage_;           ///< wall time at which its files were there

@@ -69,7 +69,7 @@ simulation::SceneRun solveAsAsked(const Task& task, const RCP<const Comm>& comm,
     if (speaks) // of a stage whose files are there
       std::cout << describe(stage) << std::flush;
   };
-  const bool isSeries = task.accuracy.target > 0;
+  const bool isSeries = refines(task, *comm);
   if (isSeries)
     watch.expectSeries();
   watch.expectSteps(task);
@@ -109,7 +109,8 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   const bool speaks = comm->getRank() == 0 && !options.quiet;
   const double start = Teuchos::Time::wallTime();
   const auto [given, notes] = readGiven(options, *comm);
-  const Task task = readTask(given, options.scene);
+  Task task = readTask(given, options.scene);
+  task.keepsMesh = !options.dat.empty(); // which has the deck's own nodes and elements
   const std::string& title = task.scene.title;
   if (!options.frd.empty())
     output::requireElasticBodies(task.scene, options.scene + ", option --frd");
@@ -119,7 +120,7 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
               << notes << std::flush;
 
   RunWatch watch(options, comm);
-  RunFiles files(options, watch, comm, start);
+  RunFiles files(options, watch, comm, start, notes);
   simulation::SceneRun run = solveAsAsked(task, comm, watch, files, speaks);
   const bool isInterrupted = run.result.status == simulation::RunStatus::interrupted;
   const std::string signal = isInterrupted ? watch.signal() : "";

@@ -214,7 +214,7 @@ void ContactSolver::settle(const decomposition::ProblemData& data, fetidp::DualS
                            const qp::Interruption& interruption, fetidp::ContactSolution& solution) {
   const double tolerance = plan().tolerance, allowed = allowedViolation(tolerance);
   constexpr double roundOff = 1e-13; // of u itself, which rows that are closed to the last digit do not tell
-  const bool isRough = solution.relativeProjectedGradient > 2 * tolerance,
+  const bool isRough = solution.relativeProjectedGradient > 2 * std::max(tolerance, solution.roundOff),
              isStagnated = dual.report.status == qp::Status::stagnated;
   if ((isRough || isStagnated) && tolerance < roundOff)
     return;
@@ -229,7 +229,7 @@ void ContactSolver::settle(const decomposition::ProblemData& data, fetidp::DualS
     return;
   if (settled->equilibrium > std::max(2 * dualParameters_.equilibriumTolerance, solution.equilibrium))
     return;
-  if (settled->relativeProjectedGradient <= 2 * tolerance ||
+  if (settled->relativeProjectedGradient <= 2 * std::max(tolerance, settled->roundOff) ||
       (!isStagnated && settled->feasibility < solution.feasibility)) {
     solution = *settled;
     report_.status = qp::Status::converged;
@@ -249,7 +249,8 @@ void ContactSolver::confirm(const fetidp::ContactSolution& solution, double erro
   if (plan().isBalanced && solution.algebraicError > 2 * errorTarget)
     reason << "recomputed from the solution the algebraic error is " << solution.algebraicError << ", not "
            << errorTarget;
-  else if (!plan().isBalanced && solution.relativeProjectedGradient > 2 * tolerance)
+  else if (!plan().isBalanced &&
+           solution.relativeProjectedGradient > 2 * std::max(tolerance, solution.roundOff))
     reason << "recomputed from the solution the projected gradient is " << solution.relativeProjectedGradient;
   else if (!plan().isBalanced && solution.feasibility > allowedViolation(tolerance))
     reason << "constraints are violated by " << solution.feasibility << " of the largest displacement";

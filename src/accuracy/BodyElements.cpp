@@ -22,10 +22,11 @@ std::vector<fem::Material> materialsOf(const scene::Body& body) {
 
 BodyElements::BodyElements(const scene::Body& body, const model::BodyLayout& layout)
     : layout_(layout), physics_(body.physics), materials_(materialsOf(body)),
-      shape_(fem::sharedShape(body.physics, *layout.mesh)), isHeated_(fem::isHeated(body)),
-      model_(materials_.size() > 1 || isHeated_ ? model::makeModel(body, *layout.mesh) : nullptr),
+      shape_(fem::sharedShape(body, *layout.mesh)),
+      hasState_(fem::isHeated(body) || !body.stiffnessFactors.empty()),
+      model_(materials_.size() > 1 || hasState_ ? model::makeModel(body, *layout.mesh) : nullptr),
       numberings_(maxNumberings, maxNumbers) {
-  if (!shape_.empty() && !isHeated_)
+  if (!shape_.empty() && !hasState_)
     for (const fem::Material& material : materials_)
       congruent_.emplace_back(cellType(), shape_, physics_, material);
 }

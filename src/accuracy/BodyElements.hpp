@@ -37,8 +37,7 @@ struct ElementView {
   std::span<const int> nodes; ///< places among the subdomain's nodes
   std::span<const Point> points;
   std::span<const double> displacements; ///< node by node, components in space
-  /// At the nodes; empty of a body of which no temperature changes.
-  std::span<const double> temperatureChange;
+  fem::NodalState state;                 ///< empty of a body of which neither temperatures nor factors change
 };
 
 /// Where the points of an element view are.
@@ -68,7 +67,7 @@ public:
   /// Precondition: the subdomain is one of this body's.
   [[nodiscard]] SubdomainElements elementsOf(const decomposition::Subdomain& subdomain);
 
-  /// Elements of a structured mesh, region by region; null of another, and where temperatures change.
+  /// Elements of a structured mesh, region by region; null of another, and of bodies with a state.
   [[nodiscard]] const fem::CongruentFluxes* congruentFluxes(GlobalOrdinal region) const {
     return congruent_.empty() ? nullptr : &congruent_[region];
   }
@@ -90,7 +89,7 @@ public:
     const bool looksUp = shape_.empty() || where == Points::inPlace;
     std::vector<Point> points(shape_);
     points.resize(perElement);
-    std::vector<double> values(perElement * components), change;
+    std::vector<double> values(perElement * components), change, factors;
     for (std::size_t e = 0; e < elements.elements.size(); ++e) {
       const std::span<const int> nodes = elements.numbering->elementNodes(e);
       for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -100,10 +99,16 @@ public:
         for (std::size_t c = 0; c < components; ++c)
           values[i * components + c] = displacement[node * components + c];
       }
-      if (isHeated_)
+      if (hasState_) {
         model_->temperatureChange(elements.elements[e], change);
-      action(ElementView{e, elements.regionOf(e), nodes, std::span(points).first(nodes.size()),
-                         std::span(values).first(nodes.size() * components), change});
+        model_->stiffnessFactors(elements.elements[e], factors);
+      }
+      action(ElementView{e,
+                         elements.regionOf(e),
+                         nodes,
+                         std::span(points).first(nodes.size()),
+                         std::span(values).first(nodes.size() * components),
+                         {change, factors}});
     }
   }
 
@@ -113,9 +118,10 @@ private:
   std::vector<fem::Material> materials_; ///< of each region
   std::vector<Point>
       shape_; ///< corners of every element from the origin on, where all are congruent; else empty
-  bool isHeated_;
-  std::vector<fem::CongruentFluxes> congruent_; ///< of each region; empty of other meshes, and heated bodies
-  std::unique_ptr<fem::BodyModel> model_;       ///< knows regions and temperatures; null where there are none
+  bool hasState_;
+  std::vector<fem::CongruentFluxes>
+      congruent_;                         ///< of each region; empty of others, and of bodies with a state
+  std::unique_ptr<fem::BodyModel> model_; ///< knows regions and states; null where there are none
   fem::RecentlyUsed<fem::LocalNumbering> numberings_;
 };
 

@@ -22,7 +22,7 @@ BoundCells::BoundCells(const scene::Body& body, const model::BodyLayout& layout,
   gather(problem, number);
   requireStraight();
   numberNodes();
-  if (!fem::sharedShape(body.physics, *layout.mesh).empty()) {
+  if (!fem::sharedShape(body, *layout.mesh).empty()) {
     kinds_.resize(elements_.size());
     model_->regions(elements_, kinds_);
     stresses_.resize(body.regions.size() + 1);

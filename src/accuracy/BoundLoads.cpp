@@ -21,6 +21,8 @@ using fem::SolidSupport;
 void requireCovered(const BoundCells& cells) {
   if (cells.body().reducedIntegration)
     refuse(cells, "reduced integration");
+  if (!cells.body().stiffnessFactors.empty())
+    refuse(cells, "factors of the stiffness");
   if (cells.model().hasFrames())
     refuse(cells, "supports along other axes than those of space");
   for (const SolidLoad& load : cells.body().loads) {

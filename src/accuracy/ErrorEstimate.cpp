@@ -35,7 +35,7 @@ double estimateElements(const BodyElements& body, const decomposition::Subdomain
       nodal.col(i) = flux.values.col(slots[element.number * perElement + i]).head(nodal.rows());
     const fem::FluxEnergies energies = fem::fluxEnergies(
         body.typeOf(element), element.points, body.physics(), body.materialOf(element.region),
-        element.displacements, nodal.leftCols(corners), element.temperatureChange);
+        element.displacements, nodal.leftCols(corners), element.state);
     estimates[element.number] = energies.difference;
     energy += energies.flux;
   });
@@ -107,7 +107,8 @@ double ErrorEstimator::normOf(std::span<const Eigen::VectorXd> displacement) {
     if (body.congruentFluxes(0) == nullptr)
       body.visit(subdomain, elements, displacement[s], Points::shape, [&](const ElementView& element) {
         sums[0].add(fem::differenceNorms(body.typeOf(element), element.points, body.physics(),
-                                         body.materialOf(element.region), element.displacements, {})
+                                         body.materialOf(element.region), element.displacements, {},
+                                         element.state)
                         .energy);
       });
   }

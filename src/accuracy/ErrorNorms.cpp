@@ -26,9 +26,9 @@ ErrorNorms errorNorms(const scene::Scene& scene, const Decomposition& decomposit
       // A closed form needs the points where they are, not where the first of all congruent elements lies.
       body.visit(subdomain, body.elementsOf(subdomain), displacement[s],
                  exact ? Points::inPlace : Points::shape, [&](const ElementView& element) {
-                   const fem::DisplacementNorms norms =
-                       fem::differenceNorms(body.typeOf(element), element.points, body.physics(),
-                                            body.materialOf(element.region), element.displacements, here);
+                   const fem::DisplacementNorms norms = fem::differenceNorms(
+                       body.typeOf(element), element.points, body.physics(), body.materialOf(element.region),
+                       element.displacements, here, element.state);
                    sums[0].add(norms.energy);
                    sums[1].add(norms.square);
                  });

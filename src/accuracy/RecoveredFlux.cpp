@@ -50,7 +50,7 @@ void addElements(const BodyElements& body, const Subdomain& subdomain, const Eig
   Eigen::MatrixXd sampled;
   body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
     fem::sampledFluxes(body.typeOf(element), element.points, body.physics(), body.materialOf(element.region),
-                       element.displacements, sampled, element.temperatureChange);
+                       element.displacements, sampled, element.state);
     const double measure = mesh::measureOf(body.typeOf(element), element.points);
     sampled *= measure;
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {

@@ -209,13 +209,16 @@ struct PairChange {
   bool isAdded = false;
 };
 
-/// *NODE PRINT or *CONTACT PRINT: what is to be printed at the end of a step.
+/// *NODE PRINT, *EL PRINT, *CONTACT PRINT or *SECTION PRINT: what is to be printed at the end of a step.
 struct Print {
+  enum class Of { nodes, elements, contact, section };
   enum class Totals { none, beside, alone };
-  std::string set{};                      ///< of nodes; empty: of a contact
+  Of of = Of::nodes;
+  std::string set{};                      ///< of nodes or elements; the surface of a section
   std::string dependent{}, independent{}; ///< surfaces of the contact; empty: of all contacts
-  std::vector<std::string> fields{};      ///< U, RF; CF
+  std::vector<std::string> fields{};      ///< U, RF; S, E, ME, ENER; CDIS, CSTR, CF; SOF, SOM, SOAREA
   Totals totals = Totals::none;
+  Place place{};
 };
 
 struct Step {

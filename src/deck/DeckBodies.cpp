@@ -178,6 +178,20 @@ std::vector<GlobalOrdinal> DeckBodies::cornersOf(const std::pair<GlobalOrdinal, 
   return corners;
 }
 
+std::vector<GlobalOrdinal> DeckBodies::nodesOfFace(const std::pair<GlobalOrdinal, int>& face) const {
+  const auto nodes = nodesOf(face.first);
+  const std::vector<int>& corners = typeOf(face.first).faces.at(face.second - 1);
+  const auto isCorner = [&](int place) {
+    return std::find(corners.begin(), corners.end(), place) != corners.end();
+  };
+  std::vector<GlobalOrdinal> result = cornersOf(face);
+  const auto edges = edgesOf(typeOf(face.first));
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (isCorner(edges[e][0]) && isCorner(edges[e][1]))
+      result.push_back(nodes[nodes.size() - edges.size() + e]);
+  return result;
+}
+
 const std::vector<int>& DeckBodies::ofNode(GlobalOrdinal node) const {
   static const std::vector<int> none;
   const auto found = bodiesOfNode_.find(node);

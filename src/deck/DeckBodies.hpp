@@ -43,6 +43,8 @@ public:
   }
   /// Corners of a face of an element. Precondition: it has the face, S1 being 1.
   [[nodiscard]] std::vector<GlobalOrdinal> cornersOf(const std::pair<GlobalOrdinal, int>& face) const;
+  /// These and the nodes between them.
+  [[nodiscard]] std::vector<GlobalOrdinal> nodesOfFace(const std::pair<GlobalOrdinal, int>& face) const;
   /// Section of an element, as its place in Deck::sections.
   [[nodiscard]] int sectionOf(GlobalOrdinal element) const { return sectionOf_.at(element); }
 

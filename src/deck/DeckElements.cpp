@@ -53,7 +53,32 @@ const std::map<std::string, ElementForm>& types() {
   return all;
 }
 
+using Edges = std::vector<std::array<int, 2>>;
+const Edges edges6{{0, 1}, {1, 2}, {2, 0}}, edges8{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
+    edges10{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
+    edges15{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+    edges20{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
 } // namespace
+
+std::span<const std::array<int, 2>> edgesOf(const ElementForm& form) {
+  switch (form.places.size()) {
+  case 6:
+    return form.dimension == 2 ? std::span<const std::array<int, 2>>(edges6)
+                               : std::span<const std::array<int, 2>>();
+  case 8:
+    return form.dimension == 2 ? std::span<const std::array<int, 2>>(edges8)
+                               : std::span<const std::array<int, 2>>();
+  case 10:
+    return edges10;
+  case 15:
+    return edges15;
+  case 20:
+    return edges20;
+  default:
+    return {};
+  }
+}
 
 const ElementForm& formOf(const Elements& elements) {
   const auto found = types().find(elements.type);

@@ -4,6 +4,7 @@
 
 #include "epafi/deck/Deck.hpp"
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,9 @@ struct ElementForm {
   /// Whether one of it alone is loose in itself: all that are reduced but prisms of 15 nodes.
   [[nodiscard]] bool isLooseAlone() const { return isReduced && kind != 18; }
 };
+
+/// Places of the corners between which an element's other nodes lie, one by one; empty of linear elements.
+std::span<const std::array<int, 2>> edgesOf(const ElementForm& form);
 
 /// Whether it is that of solids of revolution about the y-axis.
 inline bool isOfRevolution(const ElementForm& form) {

@@ -140,8 +140,8 @@ void MshWriter::addFacets(const MeshGroups& groups) {
       Cell cell{++lastNumber_, {}};
       for (const int corner : type.faces[label - 1])
         cell.nodes.push_back(elements.nodes[first + corner]);
-      const int quadrilateral = 3;
-      facets.add(own, cell.nodes.size() == 4 ? quadrilateral : type.facetKind, std::move(cell));
+      const int quadrilateral = 3, kind = cell.nodes.size() == 4 ? quadrilateral : type.facetKind;
+      facets.add(own, kind, std::move(cell));
     }
 }
 

@@ -1,11 +1,13 @@
 #include "epafi/deck/DeckModel.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/deck/DeckSections.hpp"
 #include "epafi/deck/ModelMaker.hpp"
 
 #include <Eigen/Geometry>
 #include <Teuchos_Array.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace epafi::deck {
@@ -81,11 +83,55 @@ std::string ModelMaker::nodesNamed(const std::string& name, Numbers nodes) {
   return place->second;
 }
 
+std::string ModelMaker::placeNamed(int body, const std::string& name, const Numbers& nodes) {
+  std::map<Numbers, std::vector<Face>> facesAt; // by corners: those of one element alone are on the surface
+  const auto isNamed = [&](GlobalOrdinal node) {
+    return std::binary_search(nodes.begin(), nodes.end(), node);
+  };
+  for (const GlobalOrdinal element : bodies_.all()[body].elements)
+    for (int label = 1; label <= std::ssize(bodies_.typeOf(element).faces); ++label) {
+      Numbers corners = bodies_.cornersOf({element, label});
+      if (!std::all_of(corners.begin(), corners.end(), isNamed))
+        continue;
+      std::sort(corners.begin(), corners.end());
+      facesAt[corners].emplace_back(element, label);
+    }
+  std::vector<Face> faces;
+  std::set<GlobalOrdinal> left(nodes.begin(), nodes.end());
+  for (const auto& [corners, at] : facesAt) {
+    const Numbers all = bodies_.nodesOfFace(at.front());
+    if (at.size() > 1 || !std::all_of(all.begin(), all.end(), isNamed))
+      continue;
+    faces.push_back(at.front());
+    for (const GlobalOrdinal node : all)
+      left.erase(node);
+  }
+  if (!left.empty())
+    return nodesNamed(name, nodes);
+  std::sort(faces.begin(), faces.end());
+  const auto [place, isNew] = faceNames_.try_emplace(faces, name);
+  if (isNew)
+    model_.groups.surfaces[name] = faces;
+  return place->second;
+}
+
 std::string ModelMaker::elementsNamed(const std::string& name, Numbers elements) {
   const auto [place, isNew] = elementNames_.try_emplace(elements, name);
   if (isNew)
     model_.groups.elements[name] = std::move(elements);
   return place->second;
+}
+
+void ModelMaker::checkPrints() {
+  const bool isPlane = bodies_.all().front().type->dimension == 2;
+  for (const Step& step : deck_.steps)
+    for (const Print& print : step.prints)
+      if (print.of == Print::Of::elements && isPlane)
+        model_.notes.push_back(text(print.place) +
+                               ": *EL PRINT is of solids alone here; --frd has stresses at nodes");
+      else if (print.of == Print::Of::section && !sectionAt(deck_, bodies_, deck_.surfaces.at(print.set)))
+        model_.notes.push_back(text(print.place) + ": *SECTION PRINT: " + print.set +
+                               " is no surface of faces that parts a solid, or bounds it; passed over");
 }
 
 void ModelMaker::addBodies() {
@@ -119,18 +165,19 @@ void ModelMaker::addBodies() {
         own = &list.sublist("Regions").sublist(name);
         own->set("Group", elementsNamed(name, elements));
       }
-      addMaterial(*own, deck_.sections[section]);
+      addMaterial(*own, deck_.sections[section], b);
       isRegion = true;
     }
+    addStiffnessFactors(b);
   }
 }
 
-void ModelMaker::addMaterial(ParameterList& list, const Section& section) {
+void ModelMaker::addMaterial(ParameterList& list, const Section& section, int body) {
   const Material& material = deck_.materials.at(section.material);
   if (!material.elastic)
     throw InputError(text(material.place) + ": *MATERIAL: " + section.material +
                      " has no *ELASTIC; bodies are linearly elastic here");
-  const std::vector<double> constants = constantsOf(material);
+  const std::vector<double> constants = constantsOf(material, body);
   const ElementForm& type = *bodies_.all().front().type;
   if (type.dimension == 2 && !isOfRevolution(type))
     list.set("Thickness", section.thickness.value_or(1.0));
@@ -151,6 +198,7 @@ bool isDeck(const std::string& file) {
 
 DeckModel modelOf(const Deck& deck, const std::string& mesh) {
   ModelMaker maker(deck, mesh);
+  maker.checkPrints();
   maker.addBodies();
   maker.addSteps();
   maker.addPretensions();

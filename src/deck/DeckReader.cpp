@@ -63,7 +63,9 @@ const std::vector<Heeded> heededKeywords{
     {"DSLOAD", Where::step, {"OP", "AMPLITUDE", "TIMEDELAY"}, readSurfaceLoad},
     {"TEMPERATURE", Where::step, {"OP", "AMPLITUDE", "TIMEDELAY"}, readTemperature},
     {"NODE PRINT", Where::anywhere, {}, readNodePrint},
+    {"EL PRINT", Where::anywhere, {}, readElementPrint},
     {"CONTACT PRINT", Where::anywhere, {}, readContactPrint},
+    {"SECTION PRINT", Where::anywhere, {}, readSectionPrint},
     {"CHANGE FRICTION", Where::step, {"INTERACTION"}, readFrictionChange},
     {"MODEL CHANGE", Where::step, {"TYPE", "ADD", "REMOVE"}, readModelChange}};
 

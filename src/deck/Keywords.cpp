@@ -13,13 +13,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names ignoredKeywords{"EL PRINT",       "SECTION PRINT",  "NODE FILE",          "EL FILE",
-                            "ELEMENT FILE",   "CONTACT FILE",   "SECTION FILE",       "NODE OUTPUT",
-                            "ELEMENT OUTPUT", "CONTACT OUTPUT", "ENERGY OUTPUT",      "ENERGY PRINT",
-                            "OUTPUT",         "FILE FORMAT",    "FILE OUTPUT",        "PREPRINT",
-                            "MONITOR",        "PRINT",          "CONTROLS",           "TIME POINTS",
-                            "CONDUCTIVITY",   "SPECIFIC HEAT",  "PHYSICAL CONSTANTS", "DAMPING",
-                            "DIAGNOSTICS",    "RESTART"};
+const Names ignoredKeywords{"NODE FILE",          "EL FILE",      "ELEMENT FILE",   "CONTACT FILE",
+                            "SECTION FILE",       "NODE OUTPUT",  "ELEMENT OUTPUT", "CONTACT OUTPUT",
+                            "ENERGY OUTPUT",      "ENERGY PRINT", "OUTPUT",         "FILE FORMAT",
+                            "FILE OUTPUT",        "PREPRINT",     "MONITOR",        "PRINT",
+                            "CONTROLS",           "TIME POINTS",  "CONDUCTIVITY",   "SPECIFIC HEAT",
+                            "PHYSICAL CONSTANTS", "DAMPING",      "DIAGNOSTICS",    "RESTART"};
 
 const Names ignoredNames{"FREQUENCY", "TIMEPOINTS",    "OUTPUT",      "LASTITERATIONS", "CONTACTELEMENTS",
                          "FORCED",    "INC",           "INCF",        "SOLVER",         "DIRECT",

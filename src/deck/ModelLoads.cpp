@@ -116,7 +116,7 @@ void ModelMaker::addSupports() {
       continue;
     const std::string name = "support " + std::to_string(listOf(body).sublist("Supports").numParams() + 1);
     ParameterList& list = listOf(body).sublist("Supports").sublist(name);
-    list.set("Surface", nodesNamed(bodies_.all()[body].name + ' ' + name, nodes));
+    list.set("Surface", placeNamed(body, bodies_.all()[body].name + ' ' + name, nodes));
     const auto first =
         std::find_if(holds.begin(), holds.end(), [](const Hold& hold) { return hold.value != 0; });
     const double base = first == holds.end() ? 0 : first->value;
@@ -244,8 +244,8 @@ void ModelMaker::addBodyForces(std::size_t step) {
     if (elements != bodies_.all()[body].elements)
       load.set("Group",
                elementsNamed("loaded elements " + std::to_string(elementNames_.size() + 1), elements));
-    const auto vector = [&](std::size_t first) {
-      return Eigen::Vector3d(card->values.at(first), card->values.at(first + 1), card->values.at(first + 2));
+    const auto vector = [&values = card->values](std::size_t first) {
+      return Eigen::Vector3d(values.at(first), values.at(first + 1), values.at(first + 2));
     };
     if (card->label == "GRAV") {
       if (isOfRevolution(type) && (vector(1).x() != 0 || vector(1).z() != 0))

@@ -20,6 +20,8 @@ class ModelMaker {
 public:
   ModelMaker(const Deck& deck, std::string mesh);
 
+  /// Notes what is not printed.
+  void checkPrints();
   /// Materials, sections, and what is reduced.
   void addBodies();
   /// Supports, forces, pressures and temperatures, and the steps where there are several.
@@ -45,10 +47,12 @@ private:
 
   // DeckModel.cpp
   [[nodiscard]] Teuchos::ParameterList& listOf(int body);
-  void addMaterial(Teuchos::ParameterList& list, const Section& section);
+  void addMaterial(Teuchos::ParameterList& list, const Section& section, int body);
   /// Name of a group of nodes or elements of the mesh that has these; equal ones have one name.
   std::string nodesNamed(const std::string& name, Numbers nodes);
   std::string elementsNamed(const std::string& name, Numbers elements);
+  /// The same of faces on a body's surface, if nodes are all of some; finer meshes have those, too.
+  std::string placeNamed(int body, const std::string& name, const Numbers& nodes);
 
   // ModelLoads.cpp
   [[nodiscard]] double factorAt(const std::string& amplitude, double delay, std::size_t step) const;
@@ -64,8 +68,13 @@ private:
   [[nodiscard]] Temperatures initialTemperatures() const;
   /// At the end of a step, of the nodes of which anything is said.
   [[nodiscard]] Temperatures temperaturesAt(std::size_t step) const;
-  /// Those of elasticity, at the one temperature of all nodes if they depend on it.
-  [[nodiscard]] std::vector<double> constantsOf(const Material& material) const;
+  /// All that nodes of a body have in any step.
+  [[nodiscard]] std::set<double> temperaturesIn(int body) const;
+  [[nodiscard]] std::vector<const Material*> materialsOf(int body) const;
+  /// Those of elasticity; if they depend on it at the one temperature of the body's nodes, or else as
+  /// addStiffnessFactors() wants them.
+  [[nodiscard]] std::vector<double> constantsOf(const Material& material, int body) const;
+  void addStiffnessFactors(int body);
   void setExpansion(Teuchos::ParameterList& list, const Material& material) const;
   /// Changes of temperature at the nodes of a body that expands.
   [[nodiscard]] Temperatures changesOf(int body, const Temperatures& initial, const Temperatures& now) const;
@@ -105,6 +114,7 @@ private:
   DeckBodies bodies_;
   DeckModel model_;
   std::map<Numbers, std::string> nodeNames_, elementNames_;
+  std::map<std::vector<std::pair<GlobalOrdinal, int>>, std::string> faceNames_;
   std::map<GlobalOrdinal, int> transformOf_; ///< place in Deck::transforms
   /// Of each step the factors of loads and supports, "body/load = 1, …".
   std::vector<std::string> loadFactors_, supportFactors_;

@@ -1,4 +1,5 @@
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
 #include "epafi/deck/ModelMaker.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -32,6 +33,26 @@ std::vector<double> valuesAt(const std::vector<Row>& rows, std::vector<double> R
 double temperatureOf(const Temperatures& temperatures, GlobalOrdinal node) {
   const auto found = temperatures.find(node);
   return found == temperatures.end() ? 0 : found->second;
+}
+
+/// By what the constants at a temperature are those of the first row.
+double stiffnessAt(const Material& material, double temperature) {
+  const std::vector<ElasticConstants::Row>& rows = material.elastic->rows;
+  const double first = rows.front().constants.front();
+  for (const ElasticConstants::Row& row : rows) {
+    std::vector<double> expected = rows.front().constants;
+    const bool isIsotropic = material.elastic->kind == ElasticConstants::Kind::isotropic;
+    for (std::size_t i = 0; i < (isIsotropic ? 1 : expected.size()); ++i)
+      expected[i] *= row.constants.front() / first;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (std::abs(row.constants[i] - expected[i]) > 1e-6 * std::abs(row.constants[i]))
+        throw InputError(
+            text(material.place) +
+            ": *ELASTIC: constants that change by other than one factor, as with another Poisson's "
+            "ratio, need one temperature of the whole body in all steps here; give those of one "
+            "temperature");
+  }
+  return valuesAt(rows, &ElasticConstants::Row::constants, temperature).front() / first;
 }
 
 /// α that a material has in the scene: the first one that is not 0.
@@ -86,22 +107,56 @@ ModelMaker::Temperatures ModelMaker::temperaturesAt(std::size_t step) const {
   return result;
 }
 
-std::vector<double> ModelMaker::constantsOf(const Material& material) const {
-  const auto& rows = material.elastic->rows;
-  if (rows.size() == 1)
-    return rows.front().constants;
+std::set<double> ModelMaker::temperaturesIn(int body) const {
   std::set<double> temperatures;
   for (std::size_t step = 0; step < deck_.steps.size(); ++step) {
     const Temperatures now = temperaturesAt(step);
-    for (const DeckBody& body : bodies_.all())
-      for (const GlobalOrdinal node : body.nodes)
-        temperatures.insert(temperatureOf(now, node));
+    for (const GlobalOrdinal node : bodies_.all()[body].nodes)
+      temperatures.insert(temperatureOf(now, node));
   }
-  if (temperatures.size() != 1)
-    throw InputError(text(material.place) +
-                     ": *ELASTIC: constants for several temperatures need one temperature of all nodes in "
-                     "all steps here; give those of one temperature");
-  return valuesAt(rows, &ElasticConstants::Row::constants, *temperatures.begin());
+  return temperatures;
+}
+
+std::vector<double> ModelMaker::constantsOf(const Material& material, int body) const {
+  const auto& rows = material.elastic->rows;
+  if (rows.size() == 1)
+    return rows.front().constants;
+  const std::set<double> temperatures = temperaturesIn(body);
+  return temperatures.size() > 1 ? rows.front().constants
+                                 : valuesAt(rows, &ElasticConstants::Row::constants, *temperatures.begin());
+}
+
+void ModelMaker::addStiffnessFactors(int body) {
+  const std::vector<const Material*> materials = materialsOf(body);
+  const auto varies = [](const Material* material) { return material->elastic->rows.size() > 1; };
+  const auto first = std::find_if(materials.begin(), materials.end(), varies);
+  if (first == materials.end() || temperaturesIn(body).size() == 1)
+    return;
+  const std::string place = text((*first)->place) + ": *ELASTIC: constants of several temperatures ";
+  const Temperatures now = temperaturesAt(0);
+  for (std::size_t step = 1; step < deck_.steps.size(); ++step) {
+    const Temperatures then = temperaturesAt(step);
+    for (const GlobalOrdinal node : bodies_.all()[body].nodes)
+      if (temperatureOf(then, node) != temperatureOf(now, node))
+        throw InputError(place +
+                         "need the same temperatures in all steps here; make each step a deck of its own");
+  }
+  std::map<double, Numbers> groups; // nodes with the same factor
+  for (const GlobalOrdinal node : bodies_.all()[body].nodes) {
+    const double factor = stiffnessAt(**first, temperatureOf(now, node));
+    for (const Material* material : materials)
+      if (std::abs(stiffnessAt(*material, temperatureOf(now, node)) - factor) > 1e-12 * factor)
+        throw InputError(place +
+                         "that change in another way than those of another material of the body are not "
+                         "solved here; tie bodies of one material each");
+    groups[factor].push_back(node);
+  }
+  for (const auto& [factor, nodes] : groups) {
+    Teuchos::ParameterList& list =
+        listOf(body).sublist("Stiffness Factors").sublist("factor " + valueText(factor));
+    list.set("Surface", nodesNamed("warm " + std::to_string(model_.groups.nodes.size() + 1), nodes));
+    list.set("Value", factor);
+  }
 }
 
 void ModelMaker::setExpansion(Teuchos::ParameterList& list, const Material& material) const {
@@ -110,13 +165,20 @@ void ModelMaker::setExpansion(Teuchos::ParameterList& list, const Material& mate
     list.set("Expansion", referenceExpansion(material));
 }
 
+std::vector<const Material*> ModelMaker::materialsOf(int body) const {
+  std::vector<const Material*> materials;
+  for (const GlobalOrdinal element : bodies_.all()[body].elements) {
+    const Material* material = &deck_.materials.at(deck_.sections[bodies_.sectionOf(element)].material);
+    if (std::find(materials.begin(), materials.end(), material) == materials.end())
+      materials.push_back(material);
+  }
+  return materials;
+}
+
 ModelMaker::Temperatures ModelMaker::changesOf(int body, const Temperatures& initial,
                                                const Temperatures& now) const {
-  std::set<const Material*> materials;
-  for (const GlobalOrdinal element : bodies_.all()[body].elements)
-    materials.insert(&deck_.materials.at(deck_.sections[bodies_.sectionOf(element)].material));
   Temperatures changes;
-  for (const Material* material : materials) {
+  for (const Material* material : materialsOf(body)) {
     const double reference = referenceExpansion(*material);
     for (const GlobalOrdinal node : bodies_.all()[body].nodes) {
       if (reference == 0)

@@ -23,6 +23,7 @@ void addPrint(Reading& reading, const Card& card, Print print, std::initializer_
         reading.ignore(card.shown + ' ' + shortened(field), line.place());
     }
   }
+  print.place = card.place;
   reading.step().prints.push_back(std::move(print));
 }
 
@@ -34,10 +35,27 @@ void readNodePrint(Reading& reading, const Card& card) {
   addPrint(reading, card, {.set = reading.nodeSet(card, "NSET")}, {"U", "RF"});
 }
 
+void readElementPrint(Reading& reading, const Card& card) {
+  if (!reading.isInStep || !card.has("ELSET"))
+    return reading.ignore(card.shown, card.place);
+  addPrint(reading, card, {.of = Print::Of::elements, .set = reading.elementSet(card, "ELSET")},
+           {"S", "E", "ME", "ENER"});
+}
+
+void readSectionPrint(Reading& reading, const Card& card) {
+  if (!reading.isInStep)
+    return reading.ignore(card.shown, card.place);
+  const std::string surface = card.required("SURFACE");
+  reading.refer(card, card.place, Reading::Reference::To::surface, surface);
+  addPrint(reading, card, {.of = Print::Of::section, .set = surface}, {"SOF", "SOM", "SOAREA"});
+}
+
 void readContactPrint(Reading& reading, const Card& card) {
   if (!reading.isInStep)
     return reading.ignore(card.shown, card.place);
-  addPrint(reading, card, {.dependent = card.value("SLAVE"), .independent = card.value("MASTER")}, {"CF"});
+  addPrint(reading, card,
+           {.of = Print::Of::contact, .dependent = card.value("SLAVE"), .independent = card.value("MASTER")},
+           {"CDIS", "CSTR", "CF"});
 }
 
 void readHeading(Reading& reading, const Card& card) {

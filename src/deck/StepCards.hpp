@@ -11,6 +11,8 @@ void readStep(Reading& reading, const Card& card);
 void readStatic(Reading& reading, const Card& card);
 void readEndStep(Reading& reading, const Card& card);
 void readNodePrint(Reading& reading, const Card& card);
+void readElementPrint(Reading& reading, const Card& card);
 void readContactPrint(Reading& reading, const Card& card);
+void readSectionPrint(Reading& reading, const Card& card);
 
 } // namespace epafi::deck

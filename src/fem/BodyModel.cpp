@@ -118,7 +118,7 @@ RigidModes rigidModesOf(const SolidBody& body) {
 } // namespace
 
 BodyModel::BodyModel(const Solid& body, const mesh::Mesh& mesh)
-    : body_(checked({body, mesh})), unknowns_(mesh, body_.components()), regions_(body_),
+    : body_(checked({body, mesh})), unknowns_(mesh, body_.components()), regions_(body_), factors_(body_),
       loads_(body_, regions_), supports_(body_), rigidModes_(rigidModesOf(body_)) {
   integrateRegions();
   findFramedElements();
@@ -201,9 +201,11 @@ void BodyModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const 
   }
   const GlobalOrdinal element = kind - numShared;
   std::vector<Point> points;
+  std::vector<double> factors;
   body_.cornersOf(element, points);
+  stiffnessFactors(element, factors);
   elementStiffness(cellOf(body_.mesh.cellType(), points.size()), points, body_.solid.physics,
-                   materialOf(element), stiffness, integrationOf(body_.solid));
+                   materialOf(element), stiffness, integrationOf(body_.solid), factors);
   if (isFramed(element))
     turnIntoFrames(element, stiffness);
 }
@@ -218,7 +220,7 @@ void BodyModel::element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen
 }
 
 void BodyModel::loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
-  loads_.of(body_, regions_, elements, loads);
+  loads_.of(body_, regions_, factors_, elements, loads);
   if (!supports_.hasFrames())
     return;
   for (std::size_t e = 0; e < elements.size(); ++e)

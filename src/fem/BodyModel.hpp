@@ -8,6 +8,7 @@
 #include "epafi/fem/Solid.hpp"
 #include "epafi/fem/SolidBody.hpp"
 #include "epafi/fem/SolidDomains.hpp"
+#include "epafi/fem/SolidFactors.hpp"
 #include "epafi/fem/SolidLoads.hpp"
 #include "epafi/fem/SolidSupports.hpp"
 #include "epafi/fem/UnknownMap.hpp"
@@ -82,7 +83,12 @@ public:
     loads_.temperatureChange(body_.mesh, element, change);
   }
 
-  /// What an element is made of.
+  /// By what the stiffness is multiplied at the nodes of an element; empty of a body without such factors.
+  void stiffnessFactors(GlobalOrdinal element, std::vector<double>& factors) const {
+    factors_.of(body_.mesh, element, factors);
+  }
+
+  /// What an element is made of, but for these factors.
   [[nodiscard]] const Material& materialOf(GlobalOrdinal element) const {
     return materialIn(body_.solid, regions_.of(body_, element));
   }
@@ -99,6 +105,7 @@ private:
   SolidBody body_;
   UnknownMap unknowns_;
   SolidRegions regions_;
+  SolidFactors factors_;
   SolidLoads loads_;
   SolidSupports supports_;
   std::vector<Eigen::MatrixXd> stiffnesses_;  ///< of each region, if elements are congruent

@@ -4,6 +4,7 @@
 #include "epafi/mesh/ElementMap.hpp"
 #include "epafi/mesh/ShapeFunctions.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <numbers>
@@ -29,6 +30,11 @@ using GradientProducts =
 /// What a volume or area is multiplied with at a point: 2πr of a solid of revolution.
 double factorAt(Physics physics, std::span<const Point> points, const mesh::NodalValues& values) {
   return physics == Physics::axisymmetric ? mesh::circumferenceAt(points, values) : 1;
+}
+
+/// What is given at the nodes, in between; 1 where nothing is given.
+double factorAt(std::span<const double> factors, const mesh::NodalValues& values) {
+  return factors.empty() ? 1 : values.dot(Eigen::Map<const Eigen::VectorXd>(factors.data(), values.size()));
 }
 
 /// Load of a constant force of which each node bears its share.
@@ -62,10 +68,10 @@ const typename mesh::Shape<dim>::Samples& loadSamples(const mesh::Shape<dim>& sh
                                              : shape.fineSamples();
 }
 
-/// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its blocks on the diagonal and above.
+/// S = ∫ s g gᵀ, s the factor, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); blocks on the diagonal and above.
 template <int dim>
 GradientProducts<dim> gradientProducts(const mesh::Shape<dim>& shape, std::span<const Point> points,
-                                       Integration integration) {
+                                       Integration integration, std::span<const double> factors) {
   const auto corners = mesh::relativeCorners<dim>(points);
   const int size = dim * shape.numNodes;
   GradientProducts<dim> products(size, size);
@@ -74,7 +80,7 @@ GradientProducts<dim> gradientProducts(const mesh::Shape<dim>& shape, std::span<
     const mesh::ElementMap map(corners, sample);
     const mesh::NodalColumns<dim> gradients = map.gradients(sample);
     const Eigen::Map<const Eigen::VectorXd> g(gradients.data(), size);
-    const double weight = sample.weight * map.determinant();
+    const double weight = sample.weight * map.determinant() * factorAt(factors, sample.values);
     for (int column = 0; column < size; ++column) {
       const int above = (column / dim + 1) * dim;
       products.col(column).head(above) += (weight * g[column]) * g.head(above);
@@ -135,7 +141,7 @@ void anisotropicStiffness(const GradientProducts<dim>& products, const Elasticit
 
 /// ∫2πr BᵀCB with ε = Bu, ε in the order rr, yy, hoop, ry.
 void revolvedStiffness(const mesh::Shape<2>& shape, std::span<const Point> points, const Material& material,
-                       Integration integration, Eigen::MatrixXd& stiffness) {
+                       Integration integration, std::span<const double> factors, Eigen::MatrixXd& stiffness) {
   const auto corners = mesh::relativeCorners<2>(points);
   const Eigen::Matrix4d elasticity = wholeElasticity(material).topLeftCorner<4, 4>();
   stiffness.setZero(2 * shape.numNodes, 2 * shape.numNodes);
@@ -149,23 +155,24 @@ void revolvedStiffness(const mesh::Shape<2>& shape, std::span<const Point> point
       strain(1, 2 * a + 1) = strain(3, 2 * a) = gradients(1, a);
       strain(2, 2 * a) = 2 * std::numbers::pi * sample.values[a] / around;
     }
-    stiffness.noalias() +=
-        (sample.weight * around * map.determinant()) * strain.transpose() * elasticity * strain;
+    stiffness.noalias() += (sample.weight * around * map.determinant() * factorAt(factors, sample.values)) *
+                           strain.transpose() * elasticity * strain;
   }
 }
 
 } // namespace
 
 void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
-                      const Material& material, Eigen::MatrixXd& stiffness, Integration integration) {
+                      const Material& material, Eigen::MatrixXd& stiffness, Integration integration,
+                      std::span<const double> factors) {
   assert(fits(type, physics));
   if (physics == Physics::axisymmetric) {
-    revolvedStiffness(mesh::referenceShape<2>(type), points, material, integration, stiffness);
+    revolvedStiffness(mesh::referenceShape<2>(type), points, material, integration, factors, stiffness);
     mirror(stiffness);
     return;
   }
   withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
-    const GradientProducts<dim> products = gradientProducts(shape, points, integration);
+    const GradientProducts<dim> products = gradientProducts(shape, points, integration, factors);
     const int size = physics == Physics::membrane ? shape.numNodes : dim * shape.numNodes;
     stiffness.resize(size, size);
     if (physics == Physics::membrane) {
@@ -180,6 +187,16 @@ void elementStiffness(mesh::CellType type, std::span<const Point> points, Physic
     }
   });
   mirror(stiffness);
+}
+
+double leastFactor(mesh::CellType type, std::span<const double> factors) {
+  return withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
+    double least = factors.front();
+    for (const auto* samples : {&shape.gaussSamples(), &shape.fineSamples(), &shape.reducedSamples()})
+      for (const auto& sample : *samples)
+        least = std::min(least, factorAt(factors, sample.values));
+    return least;
+  });
 }
 
 void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
@@ -223,7 +240,7 @@ void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics ph
 
 void thermalLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
                  const Material& material, std::span<const double> temperatureChange, Eigen::VectorXd& load,
-                 Integration integration) {
+                 Integration integration, std::span<const double> factors) {
   assert(fits(type, physics) && physics != Physics::membrane && temperatureChange.size() == points.size());
   const SymmetricTensor perDegree = stressOf(thermalStrain(physics, material, 1), physics, material);
   withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
@@ -236,7 +253,8 @@ void thermalLoad(mesh::CellType type, std::span<const Point> points, Physics phy
     mesh::NodalColumns<dim> forces = mesh::NodalColumns<dim>::Zero(dim, shape.numNodes);
     for (const auto& sample : stiffnessSamples(shape, physics, integration)) {
       const mesh::ElementMap map(corners, sample);
-      const double weight = sample.weight * map.determinant() * sample.values.dot(changes);
+      const double weight =
+          sample.weight * map.determinant() * factorAt(factors, sample.values) * sample.values.dot(changes);
       forces +=
           (factorAt(physics, points, sample.values) * weight * stress).lazyProduct(map.gradients(sample));
       if (physics == Physics::axisymmetric) // the hoop strain u_r/r

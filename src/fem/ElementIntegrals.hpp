@@ -33,9 +33,14 @@ inline Integration integrationOf(const Solid& body) {
 /// ∫κ∇N_a·∇N_b of a membrane, t∫ε(N_a):σ(N_b) of an elastic body of thickness t (1 in space; here and below
 /// 2πr under the integral of solids of revolution, r = x, which also have ε_zz = u_x/r). Symmetric to the
 /// last bit. `stiffness` is overwritten, and resized if need be.
+/// \param factors  at the nodes, by which σ is multiplied in between; empty: 1
 void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
                       const Material& material, Eigen::MatrixXd& stiffness,
-                      Integration integration = Integration::full);
+                      Integration integration = Integration::full, std::span<const double> factors = {});
+
+/// The least factor at the points of the stiffness and in the finer rules of loads and estimates. Where it is
+/// not positive the nodes' factors are too far apart for one element.
+double leastFactor(mesh::CellType type, std::span<const double> factors);
 
 /// t∫N_a f of a constant force f per volume; of a membrane ∫N_a f₀, f₀ per area. Exact by full integration.
 /// `load` is overwritten.
@@ -51,10 +56,11 @@ void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics ph
                   Integration integration = Integration::full);
 
 /// t∫ε(N_a):C:ε₀ of the strain ε₀ of a change of temperature, by the points of the stiffness. `load` is
-/// overwritten. \param temperatureChange  at each node. Precondition: not a membrane.
+/// overwritten. \param temperatureChange  at each node \param factors  as of the stiffness
+/// Precondition: not a membrane.
 void thermalLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
                  const Material& material, std::span<const double> temperatureChange, Eigen::VectorXd& load,
-                 Integration integration = Integration::full);
+                 Integration integration = Integration::full, std::span<const double> factors = {});
 
 // Loads on one edge of a plane element or one face of a solid one: rows as above, nodes as the facet has
 // them, in an order that makes the normal point outwards, as in Cell.hpp and Surface. Edges go with

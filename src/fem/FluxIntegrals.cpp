@@ -116,15 +116,28 @@ NodalDisplacements<Law> atNodes(std::span<const double> displacements) {
   return {displacements.data(), Law::components, std::ssize(displacements) / Law::components};
 }
 
+/// What is given at the nodes, in between.
+template <class Sample>
+double valueAt(const Sample& sample, std::span<const double> nodal, double otherwise) {
+  if (nodal.empty())
+    return otherwise;
+  return sample.values.dot(Eigen::Map<const Eigen::VectorXd>(nodal.data(), sample.values.size()));
+}
+
+/// By what the law is multiplied.
+template <class Sample>
+double factorOf(const Sample& sample, const NodalState& state) {
+  return valueAt(sample, state.stiffnessFactor, 1);
+}
+
 template <class Law, int dim>
 typename Law::Flux fluxAt(const Law& law, const mesh::ElementMap<dim>& map,
                           const mesh::ShapeSample<dim>& sample, std::span<const double> displacements,
-                          std::span<const double> temperatureChange = {}) {
-  double change = 0;
-  for (std::size_t a = 0; a < temperatureChange.size(); ++a)
-    change += sample.values[a] * temperatureChange[a];
+                          const NodalState& state = {}) {
+  const double change = valueAt(sample, state.temperatureChange, 0);
   const NodalDisplacements<Law> nodal = atNodes<Law>(displacements);
-  return law.flux(derivatives(nodal, sample) * map.jacobian().inverse(), sample, nodal, change);
+  return factorOf(sample, state) *
+         law.flux(derivatives(nodal, sample) * map.jacobian().inverse(), sample, nodal, change);
 }
 
 /// The flux is constant, so that w = q* − q_h is linear: ∫ w:C⁻¹:w = |T|/((d+1)(d+2)) (Σ Q(w_a) + Q(Σ w_a)).
@@ -150,14 +163,14 @@ FluxEnergies simplexEnergies(const Law& law, const mesh::Shape<dim>& shape, std:
 template <class Law, int dim, class Nodal>
 FluxEnergies energiesByRule(const Law& law, Physics physics, const mesh::Shape<dim>& shape,
                             std::span<const Point> points, std::span<const double> displacements,
-                            const Nodal& nodalFluxes, std::span<const double> temperatureChange) {
+                            const Nodal& nodalFluxes, const NodalState& state) {
   const auto corners = mesh::relativeCorners<dim>(points);
   const auto& samples = physics == Physics::axisymmetric ? shape.revolvedSamples() : shape.fineSamples();
   FluxEnergies energies;
   for (const auto& sample : samples) {
     const mesh::ElementMap map(corners, sample);
-    const typename Law::Flux flux = fluxAt(law, map, sample, displacements, temperatureChange);
-    const double weight = sample.weight * law.around(sample) * map.determinant();
+    const typename Law::Flux flux = fluxAt(law, map, sample, displacements, state);
+    const double weight = sample.weight * law.around(sample) * map.determinant() / factorOf(sample, state);
     energies.difference += weight * law.density(nodalFluxes.lazyProduct(sample.values) - flux);
     energies.flux += weight * law.density(flux);
   }
@@ -170,10 +183,10 @@ FluxEnergies energiesByRule(const Law& law, Physics physics, const mesh::Shape<d
 template <class Law, int dim>
 void sampleFlux(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
                 std::span<const double> displacements, Eigen::MatrixXd& fluxes,
-                std::span<const double> temperatureChange = {}) {
+                const NodalState& state = {}) {
   const auto corners = mesh::relativeCorners<dim>(points);
   const auto at = [&](const mesh::ShapeSample<dim>& sample) {
-    return fluxAt(law, mesh::ElementMap(corners, sample), sample, displacements, temperatureChange);
+    return fluxAt(law, mesh::ElementMap(corners, sample), sample, displacements, state);
   };
   if (shape.order == 1) {
     fluxes = at(shape.centreSample());
@@ -257,7 +270,7 @@ double carry(const mesh::Shape<dim>& shape, mesh::Coordinates<dim>& place) {
 template <class Law, int dim>
 DisplacementNorms normsOf(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
                           std::span<const double> displacements,
-                          const std::function<FieldValue(const Point&)>& exact) {
+                          const std::function<FieldValue(const Point&)>& exact, const NodalState& state) {
   constexpr int numPoints = dim == 2 ? 9 : 27;
   const auto corners = mesh::relativeCorners<dim>(points);
   const NodalDisplacements<Law> nodal = atNodes<Law>(displacements);
@@ -273,7 +286,8 @@ DisplacementNorms normsOf(const Law& law, const mesh::Shape<dim>& shape, std::sp
     weight *= carry(shape, place);
     const mesh::ShapeSample<dim> sample = shape.sampleAt(place);
     const mesh::ElementMap map(corners, sample);
-    typename Law::Flux flux = fluxAt(law, map, sample, displacements);
+    const NodalState unheated{{}, state.stiffnessFactor};
+    typename Law::Flux flux = fluxAt(law, map, sample, displacements, unheated);
     Eigen::Matrix<double, Law::components, 1> value = nodal.lazyProduct(sample.values);
     if (exact) {
       const mesh::Coordinates<dim> relative = corners.lazyProduct(sample.values);
@@ -285,7 +299,7 @@ DisplacementNorms normsOf(const Law& law, const mesh::Shape<dim>& shape, std::sp
       value -= Eigen::Map<const Eigen::Matrix<double, Law::components, 1>>(given.displacement.data());
     }
     weight *= law.around(sample) * map.determinant();
-    norms.energy += weight * law.density(flux);
+    norms.energy += weight * law.density(flux) / factorOf(sample, state);
     norms.square += weight * value.squaredNorm();
   }
   return norms;
@@ -316,17 +330,16 @@ int numSampledFluxes(mesh::CellType type) {
 
 void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
                    const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes,
-                   std::span<const double> temperatureChange) {
+                   const NodalState& state) {
   fluxes.resize(numFluxes(physics), numSampledFluxes(type));
   withLaw(type, points, physics, material, [&](const auto& shape, const auto& law) {
-    sampleFlux(law, shape, points, displacements, fluxes, temperatureChange);
+    sampleFlux(law, shape, points, displacements, fluxes, state);
   });
 }
 
 FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Physics physics,
                           const Material& material, std::span<const double> displacements,
-                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes,
-                          std::span<const double> temperatureChange) {
+                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes, const NodalState& state) {
   return withLaw(type, points, physics, material, [&](const auto& shape, const auto& law) {
     using Law = std::decay_t<decltype(law)>;
     assert(nodalFluxes.rows() == Law::numFluxes && nodalFluxes.cols() == shape.numNodes);
@@ -334,9 +347,9 @@ FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Ph
         fluxes(nodalFluxes.data(), Law::numFluxes, nodalFluxes.cols(),
                Eigen::OuterStride<>(nodalFluxes.outerStride()));
     return shape.isSimplex && shape.order == 1 && physics != Physics::axisymmetric &&
-                   temperatureChange.empty()
+                   state.temperatureChange.empty() && state.stiffnessFactor.empty()
                ? simplexEnergies(law, shape, points, displacements, fluxes)
-               : energiesByRule(law, physics, shape, points, displacements, fluxes, temperatureChange);
+               : energiesByRule(law, physics, shape, points, displacements, fluxes, state);
   });
 }
 
@@ -381,9 +394,10 @@ Eigen::VectorXd CongruentFluxes::differences(const Eigen::MatrixXd& displacement
 
 DisplacementNorms differenceNorms(mesh::CellType type, std::span<const Point> points, Physics physics,
                                   const Material& material, std::span<const double> displacements,
-                                  const std::function<FieldValue(const Point&)>& exact) {
+                                  const std::function<FieldValue(const Point&)>& exact,
+                                  const NodalState& state) {
   return withLaw(type, points, physics, material, [&](const auto& shape, const auto& law) {
-    return normsOf(law, shape, points, displacements, exact);
+    return normsOf(law, shape, points, displacements, exact, state);
   });
 }
 

@@ -23,14 +23,19 @@ int numFluxes(Physics physics);
 /// How many columns sampledFluxes() gives: 1 of order 1, else as many as nodes.
 int numSampledFluxes(mesh::CellType type);
 
+/// What an element's nodes have beside displacements; empty: nothing.
+struct NodalState {
+  std::span<const double> temperatureChange{}; ///< its strain has no stress
+  std::span<const double> stiffnessFactor{};   ///< by which fluxes are multiplied
+};
+
 /// The flux as far as it is accurate, from the displacements at the nodes, node by node: of order 1 that at
 /// the centre, taken as constant; of order 2 values at the nodes, of all but simplices carried on from points
 /// inside, of bricks those where the flux is most accurate.
 /// \param fluxes  numFluxes × numSampledFluxes, overwritten, and resized if need be
-/// \param temperatureChange  at the nodes; its strain has no stress. Empty: none
 void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
                    const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes,
-                   std::span<const double> temperatureChange = {});
+                   const NodalState& state = {});
 
 /// ∫ q:C⁻¹:q, the energy norm squared of the displacement that has the flux q; for membranes ∫ |q|²/κ.
 struct FluxEnergies {
@@ -39,14 +44,13 @@ struct FluxEnergies {
 };
 
 /// Exact on elements with straight edges (bricks: parallelepipeds) but of solids of revolution.
-/// \param nodalFluxes q* at the nodes, numFluxes × nodes \param temperatureChange  as of sampledFluxes
+/// \param nodalFluxes q* at the nodes, numFluxes × nodes
 FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Physics physics,
                           const Material& material, std::span<const double> displacements,
-                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes,
-                          std::span<const double> temperatureChange = {});
+                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes, const NodalState& state = {});
 
 /// sampledFluxes and fluxEnergies of many congruent elements of one material at once, whose temperature does
-/// not change, as products of matrices; a column an element.
+/// not change and that have no factors, as products of matrices; a column an element.
 class CongruentFluxes {
 public:
   /// \param points  nodes of one of them. Precondition: it is a quadrilateral or hexahedron whose
@@ -84,10 +88,11 @@ struct FieldValue {
   std::array<double, 6> flux{};         ///< numFluxes(physics) of them, as if no temperature changed
 };
 
-/// Norms of u_h − u, u given at points, whatever the temperatures are; by a rule that is exact for
+/// Norms of u_h − u, u given at points, whatever the state's temperatures are; by a rule that is exact for
 /// polynomials of degree 5 (of degree 3 on tetrahedra) of each coordinate, on elements of any form.
 DisplacementNorms differenceNorms(mesh::CellType type, std::span<const Point> points, Physics physics,
                                   const Material& material, std::span<const double> displacements,
-                                  const std::function<FieldValue(const Point&)>& exact);
+                                  const std::function<FieldValue(const Point&)>& exact,
+                                  const NodalState& state = {});
 
 } // namespace epafi::fem

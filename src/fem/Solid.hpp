@@ -83,6 +83,15 @@ struct SolidSupport {
   std::optional<std::map<GlobalOrdinal, Vector3>> displacements = std::nullopt;
 };
 
+/// By what all elastic constants are multiplied at nodes, of a stiffness that varies inside a body. Between
+/// nodes it is interpolated as displacements are; at a node that several name the last one holds, at one that
+/// none names it is 1.
+struct StiffnessFactor {
+  std::string name;
+  std::string where; ///< surface or set of nodes
+  double value = 1;  ///< > 0
+};
+
 /// A load; loads add up.
 struct SolidLoad {
   /// What the load acts on.
@@ -114,8 +123,9 @@ struct Solid {
   std::vector<SolidRegion> regions;
   std::vector<SolidSupport> supports;
   std::vector<SolidLoad> loads;
-  bool reducedIntegration = false; ///< of elements by Shape's reducedSamples
-  bool holdsAxis = true;           ///< whether nodes of a solid of revolution that lie on its axis stay there
+  std::vector<StiffnessFactor> stiffnessFactors; ///< of elastic bodies
+  bool reducedIntegration = false;               ///< of elements by Shape's reducedSamples
+  bool holdsAxis = true; ///< whether nodes of a solid of revolution that lie on its axis stay there
 };
 
 /// Whether its temperature changes anywhere.

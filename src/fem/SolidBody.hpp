@@ -14,9 +14,10 @@
 namespace epafi::fem {
 
 /// Corners of every element up to a shift where those of a body's elements all have the same stiffness: where
-/// they are congruent, and r is no part of it; else empty.
-inline std::vector<Point> sharedShape(Physics physics, const mesh::Mesh& mesh) {
-  return physics == Physics::axisymmetric ? std::vector<Point>() : mesh::congruentShape(mesh);
+/// they are congruent, and neither r nor a factor is part of it; else empty.
+inline std::vector<Point> sharedShape(const Solid& solid, const mesh::Mesh& mesh) {
+  const bool isOne = solid.physics != Physics::axisymmetric && solid.stiffnessFactors.empty();
+  return isOne ? mesh::congruentShape(mesh) : std::vector<Point>();
 }
 
 /// Keeps references to a solid and its mesh, which must outlive it.
@@ -27,7 +28,7 @@ struct SolidBody {
   std::vector<Point> shape;
 
   SolidBody(const Solid& itsSolid, const mesh::Mesh& itsMesh)
-      : solid(itsSolid), mesh(itsMesh), shape(sharedShape(itsSolid.physics, itsMesh)) {}
+      : solid(itsSolid), mesh(itsMesh), shape(sharedShape(itsSolid, itsMesh)) {}
   [[nodiscard]] bool isCongruent() const { return !shape.empty(); }
   [[nodiscard]] int components() const { return componentsOf(solid.physics); }
 

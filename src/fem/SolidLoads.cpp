@@ -162,7 +162,7 @@ void SolidLoads::enterForce(const mesh::Mesh& mesh, GlobalOrdinal node, const Ve
   forces_.push_back({*std::min_element(elements.begin(), elements.end()), node, force});
 }
 
-void SolidLoads::of(const SolidBody& body, const SolidRegions& regions,
+void SolidLoads::of(const SolidBody& body, const SolidRegions& regions, const SolidFactors& factors,
                     std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
   const int components = body.components();
   loads.setZero(static_cast<Eigen::Index>(body.mesh.nodesPerElement()) * components, elements.size());
@@ -170,7 +170,7 @@ void SolidLoads::of(const SolidBody& body, const SolidRegions& regions,
     addGridForces(body, regions, elements, loads);
   addBodyForces(body, regions, elements, loads);
   if (isHeated_)
-    addThermalLoads(body, regions, elements, loads);
+    addThermalLoads(body, regions, factors, elements, loads);
   if (!forces_.empty())
     addNodalForces(body.mesh, components, elements, loads);
 }
@@ -241,17 +241,19 @@ void SolidLoads::temperatureChange(const mesh::Mesh& mesh, GlobalOrdinal element
 }
 
 void SolidLoads::addThermalLoads(const SolidBody& body, const SolidRegions& regions,
-                                 std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
+                                 const SolidFactors& factors, std::span<const GlobalOrdinal> elements,
+                                 Eigen::MatrixXd& loads) const {
   std::vector<GlobalOrdinal> region(elements.size());
   regions.of(body, elements, region);
   std::vector<Point> points;
-  std::vector<double> change;
+  std::vector<double> change, stiffness;
   Eigen::VectorXd values;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     body.cornersOf(elements[e], points);
     temperatureChange(body.mesh, elements[e], change);
+    factors.of(body.mesh, elements[e], stiffness);
     thermalLoad(cellOf(body.mesh.cellType(), points.size()), points, body.solid.physics,
-                materialIn(body.solid, region[e]), change, values, integrationOf(body.solid));
+                materialIn(body.solid, region[e]), change, values, integrationOf(body.solid), stiffness);
     loads.col(e).head(values.size()) += values;
   }
 }

@@ -3,6 +3,7 @@
 /// The loads of a body, element by element. Keeps references to those of the solid.
 
 #include "epafi/fem/SolidDomains.hpp"
+#include "epafi/fem/SolidFactors.hpp"
 
 #include <Eigen/Core>
 
@@ -20,8 +21,8 @@ public:
   SolidLoads(const SolidBody& body, const SolidRegions& regions);
 
   /// Adds nothing: `loads` is overwritten, one column an element, rows node by node.
-  void of(const SolidBody& body, const SolidRegions& regions, std::span<const GlobalOrdinal> elements,
-          Eigen::MatrixXd& loads) const;
+  void of(const SolidBody& body, const SolidRegions& regions, const SolidFactors& factors,
+          std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
 
   /// Change of temperature at the nodes of an element; empty of a body of which no temperature changes.
   void temperatureChange(const mesh::Mesh& mesh, GlobalOrdinal element, std::vector<double>& change) const;
@@ -58,7 +59,7 @@ private:
                      std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
   void addBodyForces(const SolidBody& body, const SolidRegions& regions,
                      std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
-  void addThermalLoads(const SolidBody& body, const SolidRegions& regions,
+  void addThermalLoads(const SolidBody& body, const SolidRegions& regions, const SolidFactors& factors,
                        std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
   void addNodalForces(const mesh::Mesh& mesh, int components, std::span<const GlobalOrdinal> elements,
                       Eigen::MatrixXd& loads) const;

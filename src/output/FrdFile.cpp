@@ -3,23 +3,17 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/BodyFields.hpp"
+#include "epafi/output/ContactValues.hpp"
 #include "epafi/output/FrdRecords.hpp"
 #include "epafi/simulation/SupportResults.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <span>
 
 namespace epafi::output {
 namespace {
-
-using Eigen::Vector3d;
-/// COPEN, CSLIP1, CSLIP2, CPRESS, CSHEAR1, CSHEAR2.
-using ContactValues = std::array<double, 6>;
 
 /// What rank 0 has of a body.
 struct WholeBody {
@@ -104,37 +98,6 @@ void putMesh(std::string& text, const std::vector<WholeBody>& bodies, const Numb
   putFrdEnd(text);
 }
 
-/// CalculiX' tangents of a surface whose counterpart has a normal.
-std::array<Vector3d, 2> tangentsOf(const Vector3d& normal) {
-  const Vector3d axis = 1 - std::abs(normal.x()) < 1.5231e-6 ? Vector3d::UnitZ() : Vector3d::UnitX();
-  const Vector3d tangent = (axis - axis.dot(normal) * normal).normalized();
-  return {tangent, normal.cross(tangent)};
-}
-
-/// A contact's values on rank 0, row by row of ContactLayout::ownRows. Collective.
-std::vector<ContactValues> gatherContact(const simulation::SolvedScene& solved, int contact,
-                                         const simulation::ContactState& state) {
-  const contact::ContactLayout& layout = solved.decomposition.contacts[contact];
-  const std::vector<std::size_t> own = layout.ownRows();
-  const GlobalOrdinal first = evenShare(std::ssize(own), solved.comm()).first;
-  std::vector<ContactValues> values;
-  for (std::size_t k = 0; k < state.gap.size(); ++k)
-    values.push_back({state.gap[k], 0, 0, state.pressure[k], 0, 0});
-  if (layout.firstFriction >= 0) {
-    const simulation::FrictionFields friction = simulation::frictionFields(solved, layout);
-    // which are those of the scene's first side, where the nodes may be the second one's
-    const double sign = layout.firstBody == solved.scene.contacts[layout.number].first ? 1 : -1;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const std::array<Vector3d, 2> tangents = tangentsOf(-layout.slidingNormalAt(own[first + k]));
-      for (std::size_t t = 0; t < 2; ++t) {
-        values[k][1 + t] = sign * tangents[t].dot(Vector3d::Map(&friction.slip[3 * k]));
-        values[k][4 + t] = sign * tangents[t].dot(Vector3d::Map(&friction.traction[3 * k]));
-      }
-    }
-  }
-  return gatherOnFirst(solved.comm(), values);
-}
-
 /// By the nodes' numbers. \param values  of each contact
 std::map<GlobalOrdinal, ContactValues> atNodes(const std::vector<contact::ContactLayout>& contacts,
                                                const std::vector<std::vector<ContactValues>>& values,
@@ -188,8 +151,10 @@ void FrdFile::add(const simulation::SolvedScene& solved, const simulation::Evalu
   const std::vector<WholeBody> bodies = gatherBodies(solved);
   const std::vector<contact::ContactLayout>& contacts = solved.decomposition.contacts;
   std::vector<std::vector<ContactValues>> contactValues;
-  for (int c = 0; c < std::ssize(contacts); ++c)
-    contactValues.push_back(gatherContact(solved, c, evaluation.contacts[c]));
+  for (int c = 0; c < std::ssize(contacts); ++c) {
+    contactValues.push_back(gatherContactValues(solved, c, evaluation.contacts[c]));
+    slip_.enter(solved, c, contactValues.back());
+  }
   collectively(solved.comm(), [&] {
     if (solved.comm().getRank() > 0)
       return;

@@ -3,6 +3,7 @@
 /// Results in the format of CalculiX (.frd, ASCII, long), which FreeCAD, PrePoMax and cgx read (Wittig,
 /// *CalculiX USER'S MANUAL - CalculiX GraphiX*, Result Format).
 
+#include "epafi/output/ContactValues.hpp"
 #include "epafi/output/FieldWriter.hpp"
 
 #include <functional>
@@ -51,6 +52,7 @@ public:
 private:
   FrdNumbering numbering_;
   std::string text_;
+  TotalSlip slip_;
   int numSteps_ = 0, numBlocks_ = 0; ///< so far
 };
 

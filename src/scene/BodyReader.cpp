@@ -357,6 +357,7 @@ Body readBody(const std::string& name, const ListReader& list) {
   body.holdsAxis = list.word("Axis") == "held";
   body.material = readMaterial(list, body.physics, {}, false);
   body.regions = readRegions(list.inside("Regions"), body);
+  body.stiffnessFactors = readStiffnessFactors(list.inside("Stiffness Factors"), body.physics);
   body.supports = readSupports(list.inside("Supports"), body);
   body.loads = readLoads(list.inside("Loads"), body);
   body.decomposition = readDecomposition(list.inside("Decomposition"), body);

@@ -90,4 +90,15 @@ fem::Material readMaterial(const ListReader& list, fem::Physics physics, const f
   return material;
 }
 
+std::vector<fem::StiffnessFactor> readStiffnessFactors(const ListReader& list, fem::Physics physics) {
+  std::vector<fem::StiffnessFactor> factors;
+  for (const std::string& name : list.names()) {
+    const ListReader entry = list.inside(name);
+    if (physics == fem::Physics::membrane)
+      entry.refuseList("is of an elastic body; give a membrane regions of another \"Conductivity\"");
+    factors.push_back({name, entry.word("Surface"), entry.positive("Value")});
+  }
+  return factors;
+}
+
 } // namespace epafi::scene

@@ -148,6 +148,19 @@ void describeSupports(ParameterList& body) {
       "Elastic bodies: displacement along the surface's outward normal; the surface slides along itself.");
 }
 
+void describeFactors(ParameterList& body) {
+  ParameterList& factor =
+      body.sublist("Stiffness Factors", false,
+                   "Elastic bodies whose stiffness varies inside, as with the temperature.")
+          .sublist(
+              "<factor>", false,
+              "By what the elastic constants are multiplied at some nodes; in between it is interpolated as "
+              "displacements are. Of several that name a node the last one holds; where none does it is 1.");
+  factor.set("Surface", "", "A surface of the body, or a group of points, curves or nodes of its mesh file.");
+  setRequired(factor, {"Surface"});
+  addReal(factor, "Value", 1.0, "The factor.", 0.0, infinity, true);
+}
+
 void describeLoads(ParameterList& body) {
   ParameterList& load =
       body.sublist("Loads", false, "Forces on the body, and changes of its temperature; loads add up.")
@@ -223,6 +236,7 @@ void describeBody(ParameterList& bodies) {
       {"held", "free"});
   describeMaterial(list, "of the body outside of its regions");
   describeRegions(list);
+  describeFactors(list);
   describeSupports(list);
   describeLoads(list);
   list.sublist("Decomposition", false,

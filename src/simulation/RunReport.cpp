@@ -281,6 +281,8 @@ ParameterList reportOf(const RunResult& result) {
   ParameterList list("Report");
   enterSolve(result.solve, list);
   list.sublist("Problem").set("Title", result.title);
+  if (!result.notes.empty())
+    list.sublist("Problem").set("Notes", Teuchos::Array<std::string>(result.notes));
   enterAccuracy(result, list.sublist("Accuracy"));
   if (result.start)
     enterStart(*result.start, list.sublist("Start"));

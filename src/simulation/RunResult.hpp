@@ -89,7 +89,8 @@ struct StepResult {
 
 /// All of it.
 struct RunResult {
-  std::string title; ///< of the scene
+  std::string title;              ///< of the scene
+  std::vector<std::string> notes; ///< what its file was taken for: pairs found, keywords passed over
   SolveFacts solve;
   double relativeProjectedGradient = 0, feasibility = 0, complementarity = 0; ///< as ContactSolution
   double equilibrium = 0, algebraicError = std::numeric_limits<double>::quiet_NaN(), energy = 0;

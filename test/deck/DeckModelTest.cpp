@@ -83,8 +83,8 @@ TEST(DeckModelTest, SupportsOfEqualValuesAreOne) {
     ParameterList list = Teuchos::getValue<ParameterList>(supports.entry(entry));
     if (list.isParameter("Z") && list.get<double>("Z") == -0.25) {
       ++atHead;
-      EXPECT_EQ(model.groups.nodes.at(list.get<std::string>("Surface")),
-                (std::vector<GlobalOrdinal>{25, 26, 27, 28}));
+      EXPECT_EQ(model.groups.surfaces.at(list.get<std::string>("Surface")),
+                (std::vector<std::pair<GlobalOrdinal, int>>{{2, 2}}));
     }
   }
   EXPECT_EQ(atHead, 1);
@@ -222,12 +222,23 @@ TEST(DeckModelTest, SaysByLineWhatIsNotSolved) {
     EXPECT_NE(refusalOf(cubes(joined, more)).find(part), std::string::npos) << refusalOf(cubes(joined, more));
 }
 
+TEST(DeckModelTest, AHeldSideOfAPrismIsAFacetOfFourNodes) {
+  const deck::Deck deck =
+      deck::parseDeck("*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n5,1.,0.,1.\n6,0.,1.,1.\n"
+                      "*ELEMENT,TYPE=C3D6,ELSET=ALL\n1,1,2,3,4,5,6\n*MATERIAL,NAME=M\n*ELASTIC\n200.,.3\n"
+                      "*SOLID SECTION,ELSET=ALL,MATERIAL=M\n*NSET,NSET=SIDE\n1,2,4,5\n*BOUNDARY\nSIDE,1,3\n" +
+                          oneStep,
+                      "a.inp");
+  const std::string text = mshText(deck, deck::modelOf(deck, "a.inp").groups);
+  EXPECT_NE(text.find("\n2 1 3 1\n2 1 4 5 2\n"), std::string::npos) << text;
+}
+
 TEST(DeckModelTest, TheMeshHasTheNumbersOfTheDeckAndItsGroups) {
   const deck::Deck deck = deck::parseDeck(cubes(joined, "*BOUNDARY\nFOOT,1,3\n" + oneStep), "a.inp");
   const deck::DeckModel model = deck::modelOf(deck, "a.inp");
   const std::string text = mshText(deck, model.groups);
   for (const char* const part :
-       {"$MeshFormat\n4.1 0 8\n", "3 1 \"body 1\"\n", "0 1 \"body 1 support 1\"\n",
+       {"$MeshFormat\n4.1 0 8\n", "3 1 \"body 1\"\n", "2 1 \"body 1 support 1\"\n",
         "\n2 5 6 7 8 25 26 27 28\n", "1 12 1 28\n"}) // nodes 15 to 18 are of no element
     EXPECT_NE(text.find(part), std::string::npos) << part << text;
 }

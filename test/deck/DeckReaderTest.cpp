@@ -23,30 +23,40 @@ TEST(DeckReaderTest, NamesTheFirstThingBeyondAndOthersBehind) {
 TEST(DeckReaderTest, PassesOverWhatMakesNoDifferenceAndNamesItOnce) {
   const deck::Deck deck =
       withStep("*NODE FILE\nU\n*EL FILE\nS\n*NODE FILE, FREQUENCY=5\nRF\n*RESTART, WRITE\n"
-               "*EL PRINT, ELSET=base, GLOBAL=YES\nS\n");
+               "*ENERGY PRINT, ELSET=base\nELSE\n");
   ASSERT_EQ(deck.ignored.size(), 4u);
   EXPECT_EQ(deck.ignored[0].keyword, "*NODE FILE");
   EXPECT_EQ(deck.ignored[0].place.line, 12);
   EXPECT_EQ(deck.ignored[2].keyword, "*RESTART");
-  EXPECT_EQ(deck.ignored[3].keyword, "*EL PRINT");
+  EXPECT_EQ(deck.ignored[3].keyword, "*ENERGY PRINT");
   EXPECT_EQ(withTetrahedron("*STEP\n*STATIC, SOLVER=SPOOLES\n*END STEP\n").ignored[0].keyword,
             "*STATIC, SOLVER");
   expectSays(refusalInStep("*RESTART, READ\n"), {"line 12: *RESTART, READ: "});
 }
 
 TEST(DeckReaderTest, ReadsWhatIsToBePrinted) {
-  const deck::Deck deck =
-      withStep("*NODE PRINT, NSET=BASE, TOTALS=ONLY, FREQUENCY=9\nRF, NT\n*CONTACT PRINT\nCF, CSTR\n");
+  const deck::Deck deck = withTetrahedron(
+      "*SURFACE, NAME=face\nEall, S1\n*STEP\n*STATIC\n"
+      "*NODE PRINT, NSET=BASE, TOTALS=ONLY, FREQUENCY=9\nRF, NT\n*CONTACT PRINT\nCF, CSTR, CELS\n"
+      "*EL PRINT, ELSET=Eall, GLOBAL=YES\nS, E, PEEQ\n*SECTION PRINT, SURFACE=face, NAME=x\nSOF\n"
+      "*END STEP\n");
   const std::vector<deck::Print>& prints = deck.steps[0].prints;
-  ASSERT_EQ(prints.size(), 2u);
+  ASSERT_EQ(prints.size(), 4u);
   EXPECT_EQ(prints[0].set, "BASE");
   EXPECT_EQ(prints[0].fields, std::vector<std::string>{"RF"});
   EXPECT_EQ(prints[0].totals, deck::Print::Totals::alone);
-  EXPECT_EQ(prints[1].fields, std::vector<std::string>{"CF"});
+  EXPECT_EQ(prints[1].fields, (std::vector<std::string>{"CF", "CSTR"}));
   EXPECT_EQ(prints[1].totals, deck::Print::Totals::none);
-  ASSERT_EQ(deck.ignored.size(), 2u);
+  EXPECT_EQ(prints[2].of, deck::Print::Of::elements);
+  EXPECT_EQ(prints[2].set, "EALL");
+  EXPECT_EQ(prints[2].fields, (std::vector<std::string>{"S", "E"}));
+  EXPECT_EQ(prints[3].of, deck::Print::Of::section);
+  EXPECT_EQ(prints[3].set, "FACE");
+  ASSERT_EQ(deck.ignored.size(), 3u);
   EXPECT_EQ(deck.ignored[0].keyword, "*NODE PRINT NT");
-  EXPECT_EQ(deck.ignored[1].keyword, "*CONTACT PRINT CSTR");
+  EXPECT_EQ(deck.ignored[1].keyword, "*CONTACT PRINT CELS");
+  EXPECT_EQ(deck.ignored[2].keyword, "*EL PRINT PEEQ");
+  expectSays(refusalInStep("*SECTION PRINT, SURFACE=none, NAME=x\nSOF\n"), {"*SECTION PRINT", "NONE"});
 }
 
 TEST(DeckReaderTest, ReadsTheTitle) {

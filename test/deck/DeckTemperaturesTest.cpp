@@ -86,13 +86,30 @@ TEST(DeckTemperaturesTest, ModuliAreThoseAtTheTemperatureOfTheStep) {
   EXPECT_FALSE(bodyOf(cold).isParameter("Expansion")) << "no temperature changes";
   deck::DeckModel warm = heated(changing, step("*TEMPERATURE\nNall, 60.\n"));
   EXPECT_NEAR(bodyOf(warm).get<double>("Young's Modulus"), 140, 1e-12);
-  const std::string inPart = "*MATERIAL, NAME=m\n" + changing +
-                             "*SOLID SECTION, ELSET=Eall, MATERIAL=m\n"
-                             "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nbase, 20.\n";
-  expectSays(refusal([&] { (void)deck::modelOf(withTetrahedron(inPart + step("")), "a.inp"); }),
-             {"one temperature of all nodes"}); // nothing is said of node 4
-  expectSays(refused(step("*TEMPERATURE\nbase, 60.\n")), {"*ELASTIC", "one temperature of all nodes"});
-  expectSays(refused(step("*TEMPERATURE\nNall, 60.\n") + step("*TEMPERATURE\nNall, 70.\n")), {"*ELASTIC"});
+  EXPECT_FALSE(bodyOf(warm).isSublist("Stiffness Factors"));
+  expectSays(refused(step("*TEMPERATURE\nNall, 60.\n") + step("*TEMPERATURE\nNall, 70.\n")),
+             {"*ELASTIC", "the same temperatures in all steps"});
+}
+
+TEST(DeckTemperaturesTest, TemperaturesThatDifferInsideABodyAreFactorsOfItsStiffness) {
+  const auto elasticAt = [](const std::string& ratio) {
+    return "*ELASTIC\n200., 0.3, 0.\n100., " + ratio + ", 100.\n*EXPANSION\n1.e-5\n";
+  };
+  const std::string steps = step("*TEMPERATURE\nbase, 60.\n"); // node 4 stays at 20
+  deck::DeckModel model = heated(elasticAt("0.3"), steps);
+  ParameterList body = bodyOf(model);
+  EXPECT_EQ(body.get<double>("Young's Modulus"), 200);
+  std::map<double, std::vector<GlobalOrdinal>> factors;
+  for (const auto& entry : body.sublist("Stiffness Factors")) {
+    const ParameterList& factor = body.sublist("Stiffness Factors").sublist(entry.first);
+    factors[factor.get<double>("Value")] = model.groups.nodes.at(factor.get<std::string>("Surface"));
+  }
+  ASSERT_EQ(factors.size(), 2U);
+  EXPECT_NEAR(factors.begin()->first, 0.7, 1e-12);
+  EXPECT_EQ(factors.begin()->second, (std::vector<GlobalOrdinal>{1, 2, 3}));
+  EXPECT_NEAR(factors.rbegin()->first, 0.9, 1e-12);
+  EXPECT_EQ(factors.rbegin()->second, std::vector<GlobalOrdinal>{4});
+  expectSays(refusal([&] { (void)heated(elasticAt("0.2"), steps); }), {"*ELASTIC", "Poisson's ratio"});
 }
 
 TEST(DeckTemperaturesTest, AMaterialThatExpandsDifferentlyAlongItsAxesIsRefused) {

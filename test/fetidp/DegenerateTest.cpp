@@ -124,6 +124,19 @@ TEST(DegenerateTest, AnInitialPenetrationIsPushedApart) {
   }
 }
 
+TEST(DegenerateTest, WhatIsUnevenByLessThanTheRoundingOfALargeShiftIsSolvedToThatRounding) {
+  // The floating strip moves by 1e4; what differs along the contact is 1e-5 of the load.
+  scene::Scene scene = strips(false, 0, -1, grid(1, 1), 1);
+  scene.contacts[0].gap = -1e4;
+  scene.bodies[1].loads.push_back(fem::loadInside("uneven", mesh::rectangle(1, 2, 0, 0.25), -1e-5));
+  const Solved solved(scene);
+  EXPECT_EQ(solved.solver.report().status, qp::Status::converged) << solved.solver.report().reason;
+  EXPECT_NEAR(solved.solution.contactForce, 1 + 0.25e-5, 1e-9);
+  const double tolerance = 1e-11;
+  EXPECT_GT(solved.solution.roundOff, tolerance) << "else it is no such case";
+  EXPECT_LE(solved.solution.relativeProjectedGradient, 2 * solved.solution.roundOff);
+}
+
 TEST(DegenerateTest, ContactNodesMayBeSupportedOnBothSides) {
   for (const double gap : {0.0, 0.125})
     for (const auto& cut : cuts()) {

@@ -1,8 +1,9 @@
-/// Any bytes as an input deck: it is read, and what it refers to is there, or it is refused in a sentence.
+/// Any bytes as an input deck: it is read, what it refers to is there, and it becomes a scene with a mesh; or
+/// it is refused in a sentence.
 
 #include "Refusals.hpp"
 
-#include "epafi/deck/Deck.hpp"
+#include "epafi/deck/DeckModel.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -36,6 +37,13 @@ void use(const deck::Deck& deck) {
   for (const deck::Section& section : deck.sections)
     require(deck.elementSets.contains(section.elementSet) && deck.materials.contains(section.material));
   for (const deck::Step& step : deck.steps)
+    for (const deck::Print& print : step.prints) {
+      using Of = deck::Print::Of;
+      require(print.of != Of::nodes || deck.nodeSets.contains(print.set));
+      require(print.of != Of::elements || deck.elementSets.contains(print.set));
+      require(print.of != Of::section || deck.surfaces.contains(print.set));
+    }
+  for (const deck::Step& step : deck.steps)
     for (const deck::Boundary& boundary : step.boundaries) {
       require(boundary.first >= 1 && boundary.first <= boundary.last && boundary.last <= 3);
       requireNodes(deck, boundary.nodes);
@@ -46,6 +54,10 @@ void use(const deck::Deck& deck) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  fuzz::orRefused([&] { use(deck::parseDeck(text, "deck.inp")); });
+  fuzz::orRefused([&] {
+    const deck::Deck deck = deck::parseDeck(text, "deck.inp");
+    use(deck);
+    (void)mshText(deck, deck::modelOf(deck, "deck.inp").groups);
+  });
   return 0;
 }

@@ -28,7 +28,7 @@ struct GuaranteedBoundTest : testing::Test {
 
   SceneRun solve(const Scene& scene, double asked = 1e-10, const RCP<const Comm>& ranks = {}) const {
     return solveScene(scene, Teuchos::ParameterList().set("Tolerance", asked), ranks.is_null() ? comm : ranks,
-                      {.bound = true});
+                      {.estimatesError = true, .bound = true});
   }
 
   /// A rectangle of 4 × 4 cells, in four subdomains. Collective.

@@ -99,6 +99,8 @@ class Assemblies(unittest.TestCase):
             found = self.contact(name, BLOCKS, "upper block - lower block", ranks)
             self.assertAlmostEqual(found["Resultant"][2], 2000, delta=2000 * 1e-8)
             self.assertAlmostEqual(found["Contact Area"][0], 400, delta=1e-3)
+            notes = xml.etree.ElementTree.parse(self.place / "report.xml").find(".//Parameter[@name='Notes']").get("value")
+            self.assertIn("upper block - lower block: plane on plane, area 400, gap 0", notes)
 
     def test_a_pin_with_clearance_carries_its_force(self):
         found = self.contact("pin_in_lug", PIN, "lug - pin", 2)

@@ -58,6 +58,15 @@ def displacements_in_frd(text):
             for line in block[:block.index("\n -3")].splitlines() if line.startswith(" -1")}
 
 
+def stresses_in_dat(text):
+    """{(element, point): stress} of the last time that is printed."""
+    fields = {}
+    for time, block in re.findall(r"\n stresses \(elem, integ\.pnt\..* and time +(\S+)\n\n((?: .*\n)*)", text):
+        rows = (line.split() for line in block.splitlines())
+        fields.setdefault(float(time), {}).update({(int(row[0]), int(row[1])): [float(x) for x in row[2:]] for row in rows})
+    return fields[max(fields)] if fields else {}
+
+
 def reference(name, kind, folder):
     if kind == "ref":
         return displacements_in_dat(text_of(f"{name}.dat.ref"))
@@ -85,7 +94,8 @@ class DecksTest(unittest.TestCase):
 
     def solve(self, name, ranks=1):
         (self.folder / f"{name}.inp").write_text(deck(name), encoding="latin-1")
-        command = [EPAFI, self.folder / f"{name}.inp", "--frd", self.folder / f"epafi_{name}.frd"]
+        command = [EPAFI, self.folder / f"{name}.inp", "--frd", self.folder / f"epafi_{name}.frd", "--dat",
+                   self.folder / f"epafi_{name}.dat"]
         if ranks > 1:
             command = [*LAUNCH, str(ranks), *command]
         done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
@@ -115,6 +125,80 @@ class DecksTest(unittest.TestCase):
                              reference(row["deck"], row["reference"], self.folder), float(row["tolerance"]))
                 compared += 1
         self.assertGreaterEqual(compared, 20)
+
+    def test_stresses_at_integration_points_are_those_of_calculix(self):
+        compared = 0
+        for row in table():
+            if row["reference"] != "ref" or float(row["tolerance"]) > 1e-5:
+                continue
+            expected = stresses_in_dat(text_of(f"{row['deck']}.dat.ref"))
+            if not expected or re.search("TYPE *= *C(PE|PS|AX)", deck(row["deck"]), re.I):
+                continue
+            with self.subTest(row["deck"]):
+                self.solve(row["deck"], 1 + compared % 2)
+                found = stresses_in_dat((self.folder / f"epafi_{row['deck']}.dat").read_text(encoding="utf-8"))
+                self.assertEqual(found.keys(), expected.keys())
+                largest = max(abs(x) for stress in expected.values() for x in stress)
+                for place, stress in expected.items():
+                    for x, y in zip(found[place], stress, strict=True):
+                        self.assertAlmostEqual(x, y, delta=1e-5 * largest, msg=f"{place}")
+                compared += 1
+        self.assertGreaterEqual(compared, 20)
+
+    def test_contacts_are_printed_step_by_step_as_calculix_has_them(self):
+        if shutil.which("ccx") is None:
+            self.skipTest("ccx is not installed")
+        text = re.sub(r",\s*NLGEOM(=YES)?", "", deck("friction2"), flags=re.I)
+        text = re.sub(r"(\*END STEP)", r"*CONTACT PRINT\nCDIS,CSTR\n*CONTACT FILE\nCDIS,CSTR\n\1", text, flags=re.I)
+        (self.folder / "theirs.inp").write_text(text, encoding="latin-1")
+        (self.folder / "ours.inp").write_text(text, encoding="latin-1")
+        subprocess.run(["ccx", "theirs"], cwd=self.folder, capture_output=True, timeout=120, check=True)
+        subprocess.run([*LAUNCH, "2", EPAFI, self.folder / "ours.inp", "--quiet", "--dat", self.folder / "ours.dat",
+                        "--frd", self.folder / "ours.frd"],
+                       check=True, timeout=120)
+
+        def printed(name, words):
+            blocks = {}
+            pattern = rf"\n {words} \(slave node,\S+ for all contact elements and time +(\S+)\n\n((?: .*\n)*)"
+            for time, block in re.findall(pattern, (self.folder / name).read_text(encoding="utf-8")):
+                rows = (line.split() for line in block.splitlines())
+                blocks[float(time)] = {int(row[0]): [float(x) for x in row[1:]] for row in rows}
+            return blocks
+
+        for words in ("relative contact displacement", "contact stress"):
+            theirs, ours = printed("theirs.dat", words), printed("ours.dat", words)
+            self.assertEqual(len(ours), 4)
+            for time, nodes in ours.items():
+                self.assertEqual(nodes.keys(), theirs[time].keys())
+                for node, values in nodes.items():
+                    expected = theirs[time][node]
+                    along = max(abs(x) for row in theirs[time].values() for x in row[1:])
+                    self.assertAlmostEqual(values[0], expected[0], delta=0.08 * abs(expected[0]))  # a tail of tension there
+                    for x, y in zip(values[1:], expected[1:], strict=True):
+                        self.assertAlmostEqual(x, y, delta=2e-3 * along, msg=f"{words} at {time} of {node}")
+
+        def slips(name):
+            text = (self.folder / name).read_text(encoding="utf-8")
+            block = text[text.rindex(" -4  CONTACT"):]
+            return {int(line[3:13]): [float(line[25:37]), float(line[37:49])]
+                    for line in block[:block.index("\n -3")].splitlines() if line.startswith(" -1")}
+
+        theirs, ours = slips("theirs.frd"), slips("ours.frd")
+        self.assertTrue(ours)
+        for node, slip in ours.items():  # in the last step, after sliding to and fro
+            for x, y in zip(slip, theirs[node], strict=True):
+                self.assertAlmostEqual(x, y, delta=2e-3)
+
+    def test_a_target_is_judged_on_the_mesh_of_the_deck(self):
+        (self.folder / "beam10p.inp").write_text(deck("beam10p"), encoding="latin-1")
+        for share, code in ((0.2, 0), (0.02, 1)):
+            done = subprocess.run([EPAFI, self.folder / "beam10p.inp", "--accuracy", str(share)], capture_output=True,
+                                  text=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, code, done.stderr)
+            found = re.search(r"estimated error ([\d.]+) %", done.stdout)
+            self.assertEqual(float(found.group(1)) > 100 * share, code == 1)
+            self.assertEqual("TargetMissed: the estimated error is" in done.stdout, code == 1)
+        self.assertIn("finer meshes would not have the nodes", done.stdout)
 
     def test_two_ranks_find_the_same(self):
         for row in table()[::6]:

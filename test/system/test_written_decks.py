@@ -303,6 +303,73 @@ class WrittenDecksTest(unittest.TestCase):
                 self.assertAlmostEqual(value, expected, delta=20)
             self.assertEqual(their_u.keys(), u.keys())
 
+    def test_prints_of_elements_contacts_and_sections_are_those_of_a_pressed_block(self):
+        def block(words, text):
+            return text[text.index(words):].split("\n\n")[1].splitlines()
+
+        mesh = self.blocks()
+        _, top = mesh.on("upper", 2, 10)
+        _, ends = mesh.on("lower", 2, 0)
+        pressure, stiffness, young = 100.0, 1e4, 210000.0
+        text = freecad(mesh, self.sets(mesh) + f"*SURFACE, NAME=Ground\n{face_lines(ends)}",
+                       "*CONTACT PAIR, INTERACTION=INTContact, TYPE=SURFACE TO SURFACE\nDEPContact, INDContact\n"
+                       f"*SURFACE INTERACTION, NAME=INTContact\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{stiffness}\n",
+                       "*ELASTIC\n210000, 0", f"*STEP\n*STATIC\n{self.HELD}*DLOAD\n{pressure_lines(top, pressure)}"
+                       "*CONTACT PRINT\nCDIS, CSTR\n*EL PRINT, ELSET=Eall\nS, E, ENER\n"
+                       "*SECTION PRINT, SURFACE=Ground, NAME=g\nSOF, SOM\n"
+                       "*SECTION PRINT, SURFACE=INDContact, NAME=h\nSOF\n"
+                       "*NODE PRINT, NSET=SideX\nU\n")
+        self.solve(text, ranks=2)
+        printed = (self.folder / "epafi.dat").read_text(encoding="utf-8")
+        for words, values in (("stresses (elem", [0, 0, -pressure, 0, 0, 0]),
+                              ("strains (elem", [0, 0, -pressure / young, 0, 0, 0]),
+                              ("internal energy density (elem", [pressure ** 2 / young / 2])):
+            rows = block(words, printed)
+            self.assertEqual(len(rows), 4 * len(mesh.elements))
+            for row in rows:
+                for value, expected in zip(row.split()[2:], values, strict=True):
+                    self.assertAlmostEqual(float(value), expected, delta=1e-5 * max(abs(x) for x in values), msg=words)
+        for words, values in (("relative contact displacement (slave node", [-pressure / stiffness, 0, 0]),
+                              ("contact stress (slave node", [pressure, 0, 0])):
+            rows = block(words, printed)
+            self.assertGreater(len(rows), 8)
+            for row in rows:
+                for value, expected in zip(row.split()[1:], values, strict=True):
+                    self.assertAlmostEqual(float(value), expected, delta=1e-4 * max(abs(x) for x in values), msg=words)
+        for name, height, outwards in (("GROUND", 0, -1), ("INDCONTACT", None, 1)):
+            statistics = printed[printed.index(f"statistics for surface set {name} "):].split("\n\n")
+            force, centre, sizes = ([float(x) for x in statistics[k].split()] for k in (2, 4, 8))
+            self.assertAlmostEqual(force[2], -outwards * pressure * 100, delta=1e-2)
+            self.assertAlmostEqual(force[3], 5 * force[2], delta=0.1)
+            self.assertAlmostEqual(force[4], -5 * force[2], delta=0.1)
+            self.assertEqual(centre[:2] + centre[3:], [5, 5, 0, 0, outwards])
+            if height is not None:
+                self.assertEqual(centre[2], height)
+            self.assertAlmostEqual(sizes[0], 100, delta=1e-4)
+            self.assertAlmostEqual(sizes[1], -pressure * 100, delta=1e-2)
+
+    def test_a_deck_that_names_faces_alone_is_refined_to_a_target(self):
+        mesh = self.blocks()
+        _, side = mesh.on("upper", 0, 0)
+        foot, _ = mesh.on("lower", 2, 0)
+        text = freecad(mesh, self.sets(mesh) + f"*NSET, NSET=Foot\n{lines(foot)}", "*TIE, NAME=t\nDEPContact, INDContact\n",
+                       "*ELASTIC\n210000, 0.3",
+                       f"*STEP\n*STATIC\n*BOUNDARY\nFoot, 1, 3\n*DLOAD\n{pressure_lines(side, 1.0)}")
+        (self.folder / "model.inp").write_text(text, encoding="utf-8")
+        found, works = [], []
+        for target in (None, 0.05):
+            command = [EPAFI, self.folder / "model.inp", "--quiet", "--report", self.folder / "report.xml",
+                       "--frd", self.folder / "epafi.frd", *(["--accuracy", str(target)] if target else [])]
+            subprocess.run(command, check=True, timeout=120)
+            report = xml.etree.ElementTree.parse(self.folder / "report.xml")
+            found.append(float(report.find(".//Parameter[@name='Relative Error']").get("value")))
+            works.append(float(report.find(".//Parameter[@name='Load Work']").get("value")))
+        self.assertGreater(found[0], 0.06)
+        self.assertLessEqual(found[1], 0.05)
+        # What the work grows by is the error's square, but at the corners the estimate of so coarse a mesh sees little.
+        self.assertGreater(works[1], works[0])
+        self.assertLessEqual(works[1] - works[0], (2 * found[0]) ** 2 * works[1])
+
     def test_what_cannot_be_solved_is_named_with_its_line(self):
         mesh = self.blocks()
         text = prepomax(mesh, re.sub("NSET=", "Nset=", self.sets(mesh)), "", "*Step\n*Frequency\n10\n")

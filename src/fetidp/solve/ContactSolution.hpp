@@ -23,6 +23,7 @@ struct ContactSolution {
 
   // How accurate it is, recomputed from u and λ alone; all relative, without units.
   double relativeProjectedGradient = 0;
+  double roundOff = 0; ///< of it: what rounding displacements and gaps to doubles makes of c − Bu by itself
   double feasibility = 0; ///< largest penetration or jump, relative to the largest |u|, or |c| that is closed
   double complementarity = 0; ///< |λ_Iᵀ(c − Bu)| relative to the energy
   double equilibrium =

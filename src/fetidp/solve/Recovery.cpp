@@ -110,6 +110,9 @@ void assess(const DualProblem& dual, const ProblemData& data, const Vector& size
     return reference > 0 ? value / reference : value;
   };
   solution.relativeProjectedGradient = relative(std::sqrt(sums[0].value()), found.reference);
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * scale;
+  solution.roundOff =
+      relative(rounding * std::sqrt(static_cast<double>(gradient.getGlobalLength())), found.reference);
   solution.feasibility = relative(violation, scale);
   solution.complementarity = relative(std::abs(sums[1].value()), std::abs(solution.energy));
   solution.equilibrium = found.equilibrium;
