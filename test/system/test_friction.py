@@ -268,10 +268,10 @@ class Friction(unittest.TestCase):
             self.assertLess(self.products("wheel_on_rail.xml", *coarse, "Contact/touch/" + law), 2 * without, law)
 
     def test_a_pin_that_floats_sticks_at_first(self):
-        """The forces that balance it are no sign of what slips: begun with these as slip it took 3892 products, now 394."""
+        """The forces that balance it are no sign of what slips: begun with these as slip it took 3892 products, now about 70."""
         found = self.products("lug.xml", "Bodies/lug/Order=1", "Bodies/pin/Order=1", "Accuracy/Coarser Start=10000000",
                               "Contact/bearing/Friction=0.3")
-        self.assertLess(found, 1000)
+        self.assertLess(found, 200)
 
     def assert_one_grid_a_step(self, directory):
         (series,) = xml.etree.ElementTree.parse(directory / "pushed.xdmf").findall("./Domain/Grid")

@@ -163,12 +163,6 @@ void Box::fixedIndicator(Vector& y) const {
     result[i] = bounds[i].lower < bounds[i].upper ? 0 : 1;
 }
 
-void Box::takeFromLeaders(Vector& y) const {
-  const auto result = localDataNonConst(y);
-  for (const Growth& each : growth_)
-    result[each.entry] = result[each.leader];
-}
-
 void Box::distanceToBoundary(const Vector& x, double atMost, Vector& y) const {
   const Local bounds = local();
   const auto values = localData(x);

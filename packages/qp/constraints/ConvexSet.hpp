@@ -66,8 +66,6 @@ public:
   virtual void freeIndicator(const Vector& x, Vector& y) const = 0;
   /// y_i = 1 where the set has one value alone, else 0.
   virtual void fixedIndicator(Vector& y) const = 0;
-  /// y of entries whose bounds grow with another entry becomes that entry's. By default there are none.
-  virtual void takeFromLeaders([[maybe_unused]] Vector& y) const {}
   /// y_i = a lower bound of how far x_i may move either way with the set kept, at most `atMost`; 0 on the
   /// active set.
   virtual void distanceToBoundary(const Vector& x, double atMost, Vector& y) const = 0;

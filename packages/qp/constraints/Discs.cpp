@@ -215,13 +215,6 @@ void Discs::fixedIndicator(Vector& y) const {
     setPair(disc, both(disc.radius > 0 ? 0 : 1), result);
 }
 
-void Discs::takeFromLeaders(Vector& y) const {
-  const auto result = localDataNonConst(y);
-  for (const Disc& disc : discs_)
-    if (disc.slope > 0)
-      setPair(disc, both(result[disc.leader]), result);
-}
-
 void Discs::distanceToBoundary(const Vector& x, double atMost, Vector& y) const {
   box_.distanceToBoundary(x, atMost, y);
   const auto values = localData(x);

@@ -78,7 +78,6 @@ public:
   void restrictToReleased(const Vector& x, const Vector& g, double negligible, Vector& z) const override;
   void freeIndicator(const Vector& x, Vector& y) const override;
   void fixedIndicator(Vector& y) const override;
-  void takeFromLeaders(Vector& y) const override;
   void distanceToBoundary(const Vector& x, double atMost, Vector& y) const override;
   void activate(const Vector& active, Vector& x) const override;
   [[nodiscard]] double complementarity(const Vector& x, const Vector& g, double scale) const override;

@@ -56,13 +56,10 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
   {
     const auto on = localData(on_.face.isFree), wrong = localData(work_), x = localData(on_.x),
                inside = localData(inside_);
-    const auto next = localDataNonConst(next_.isFree), overlap = localDataNonConst(overlap_);
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      const bool isReleased = on[i] == 0 && next[i] == 0 && wrong[i] != 0 && std::abs(wrong[i]) >= least;
-      overlap[i] = isReleased ? std::abs(wrong[i]) : 0;
-      if (isReleased)
-        next[i] = 1;
-    }
+    const auto next = localDataNonConst(next_.isFree);
+    for (std::size_t i = 0; i < next.size(); ++i)
+      if (on[i] == 0 && next[i] == 0)
+        next[i] = wrong[i] != 0 && std::abs(wrong[i]) >= least ? 1 : 0;
     set_->followBoundary(inside_, gradient, least, &on_.face, next_);
     const auto sums = reduction_.sums();
     for (std::size_t i = 0; i < next.size(); ++i) {
@@ -88,12 +85,11 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
   return true;
 }
 
-/// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it. What the last
-/// set held and this one does not, the friction of a node that has just closed, goes as far against the
-/// gradient as it wants to, or as the set lets it: it sticks or slips. A force is taken to undo a slip as the
-/// node's normal force undid its overlap.
+/// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it. What had to stay
+/// on the last face and may move now, the friction of a node that has closed, goes against its slip as far as
+/// the set lets it: it slips, and the next face tells whether it sticks.
 void ActiveSetIteration::followSet(const Vector& gradient) {
-  constexpr double far = std::numeric_limits<double>::max();
+  constexpr double far = 1e3; // beside what undoes a slip
   if (!program_.setAt)
     return;
   set_ = program_.setAt(inside_);
@@ -104,19 +100,11 @@ void ActiveSetIteration::followSet(const Vector& gradient) {
   for (const CircleTangent& tangent : on_.face.tangents)
     held[tangent.first] = held[tangent.second] = 1;
   set_->activate(next_.isFree, inside_);
-  set_->distanceToBoundary(inside_, far, length_);
-  const auto wasHeld = localData(fixed_), slope = localData(gradient), overlap = localData(overlap_);
-  {
-    const auto length = localDataNonConst(length_);
-    for (std::size_t i = 0; i < length.size(); ++i)
-      length[i] = overlap[i] > 0 ? length[i] / overlap[i] : 1 / on_.stiffness();
-  }
-  set_->takeFromLeaders(length_);
-  const auto length = localData(length_);
+  const auto wasHeld = localData(fixed_), slope = localData(gradient);
   const auto direction = localDataNonConst(work_);
   for (std::size_t i = 0; i < direction.size(); ++i)
-    direction[i] = wasHeld[i] * length[i] * slope[i];
-  set_->move(1, work_, inside_);
+    direction[i] = wasHeld[i] * slope[i];
+  set_->move(far / on_.stiffness(), work_, inside_);
 }
 
 /// Whether the next face has the tangents of this one's circles; on this rank.

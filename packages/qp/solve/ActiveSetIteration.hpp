@@ -66,9 +66,7 @@ private:
   Vector inside_; ///< x projected
   Face next_;     ///< the next face
   Vector work_;
-  Vector overlap_; ///< of entries that were let go on choosing the face: |g| there, else 0
-  Vector length_;  ///< work
-  Vector fixed_;   ///< 1 where Ω(x) had one value alone when the face was chosen, else 0
+  Vector fixed_; ///< 1 where Ω(x) had one value alone when the face was chosen, else 0
   FusedReduction reduction_;
   double faceReduction_;
   double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled

@@ -36,9 +36,8 @@ ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& program, const Ve
           Teuchos::rcp_dynamic_cast<const ReplicatedEquality>(program.equality, true), interruption_,
           counts_),
       start_(start, Teuchos::Copy), best_(start, Teuchos::Copy), inside_(objective_.map()),
-      next_(objective_.map()), work_(objective_.map()), overlap_(objective_.map()), length_(objective_.map()),
-      fixed_(objective_.map()), reduction_(objective_.map()->getComm(), 4),
-      faceReduction_(parameters.faceReduction) {
+      next_(objective_.map()), work_(objective_.map()), fixed_(objective_.map()),
+      reduction_(objective_.map()->getComm(), 4), faceReduction_(parameters.faceReduction) {
   objective_.setLinearTerm(*program.linearTerm, 0);
   if (tolerances.error != nullptr)
     watch_.emplace(*tolerances.error);
