@@ -107,10 +107,14 @@ void Course::iterate(Method method) {
     return;
   if (status != Status::unbounded && status != Status::stagnated && status != Status::notFinite)
     return;
-  if (program_.setAt)
-    fixSet(program_.setAt(x_));
-  else
-    byMprgp(program_);
+  if (!program_.setAt)
+    return byMprgp(program_);
+  fixSet(program_.setAt(x_));
+  if (report_.status != Status::stagnated || !isToGoOn())
+    return;
+  byFaces(program_, tolerances_, {parameters_.faceReduction}); // from there bounds change by little
+  if (report_.status == Status::stagnated)
+    report_.reason = program_.unsettled;
 }
 
 /// Goes on with a method from x; reports, counts and limits run through. Collective.
@@ -185,18 +189,20 @@ void Course::solveWithin(const QuadraticProgram& given, const Tolerances& tolera
 /// of them has a solution that is found. \param first  the set of the first of them. Collective.
 void Course::fixSet(RCP<const ConvexSet> first) {
   constexpr int maxRounds = 60;
-  constexpr double roughest = 1e-2, share = 0.1; // of what bounds still move, each problem is solved to
+  constexpr double share = 0.1; // of what bounds still move, each problem is solved to, but no rougher again
   const double reference = tolerances_.gradientReference;
   QuadraticProgram given = program_;
   given.setAt = {};
   Tolerances rough = tolerances_;
-  double reduction = parameters_.faceReduction, moved = roughest / share * reference;
+  double reduction = parameters_.faceReduction, roughest = std::max(1e-2, tolerances_.gradient),
+         moved = roughest / share * reference;
   Vector source(x_, Teuchos::Copy); // where bounds come from
   Relaxation relaxation;
   given.set = std::move(first);
   for (int round = 0; round < maxRounds; ++round) {
     if (tolerances_.error == nullptr && reference > 0)
-      rough.gradient = std::max(tolerances_.gradient, share * moved / reference);
+      rough.gradient = std::clamp(share * moved / reference, tolerances_.gradient, roughest);
+    roughest = rough.gradient;
     solveWithin(given, rough, reduction);
     if (report_.status != Status::converged)
       return;
