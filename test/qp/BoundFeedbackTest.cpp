@@ -32,11 +32,11 @@ struct Nodes {
         a(number * dimension, number * dimension), x(Eigen::VectorXd::Zero(a.rows())), gradient(x) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
+    const auto nodeOf = [dimension](Eigen::Index row) { return row / dimension; };
     Eigen::MatrixXd mixing(a.rows(), a.rows());
     for (Eigen::Index i = 0; i < a.rows(); ++i)
       for (Eigen::Index j = 0; j < a.rows(); ++j)
-        mixing(i, j) =
-            normal(random) * std::exp(-std::abs(static_cast<double>(i / dimension - j / dimension)));
+        mixing(i, j) = normal(random) * std::exp(-static_cast<double>(std::abs(nodeOf(i) - nodeOf(j))));
     a = mixing * mixing.transpose() + Eigen::MatrixXd::Identity(a.rows(), a.rows());
     for (int k = 0; k < numNodes; ++k) {
       const Eigen::Index first = Eigen::Index{dimension} * k;
