@@ -1,8 +1,8 @@
 #include "epafi/output/FieldSteps.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/output/Hdf5Handle.hpp"
 #include "epafi/output/SafeNames.hpp"
+#include "epafi/output/internal/Hdf5Handle.hpp"
 
 #include <cmath>
 #include <optional>

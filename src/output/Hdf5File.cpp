@@ -4,7 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/RawCommunicator.hpp"
 #include "epafi/output/AtomicFile.hpp"
-#include "epafi/output/Hdf5Handle.hpp"
+#include "epafi/output/internal/Hdf5Handle.hpp"
 
 #include <hdf5.h>
 

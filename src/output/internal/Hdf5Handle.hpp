@@ -1,6 +1,6 @@
 #pragma once
 
-/// What calls of HDF5 need around them.
+/// What calls of HDF5 need around them; not installed.
 
 #include <hdf5.h>
 
