@@ -63,9 +63,9 @@ class Signals(Run):
         self.goes_on("no_contact", *elements(256, "membrane"), ranks=(2, 1),
                      send=lambda process: process.send_signal(signal.SIGUSR1))  # which mpirun passes on
 
-    def assembling(self, *arguments):
+    def assembling(self, *arguments, size=512):
         """A run that is before or in its assembly, METIS's part of which takes a while."""
-        process = self.start(PROGRAM, scene("coercive"), *elements(512, "left", "right"), "--set", "Decomposition/Method=metis",
+        process = self.start(PROGRAM, scene("coercive"), *elements(size, "left", "right"), "--set", "Decomposition/Method=metis",
                              "--set", "Decomposition/Parts=16", *arguments)
         self.reach(process, "Epafi")
         return process
@@ -80,7 +80,7 @@ class Signals(Run):
             self.assertEqual(list((self.place / "out").iterdir()), [])
 
     def test_a_second_signal_ends_at_once(self):
-        process = self.assembling()
+        process = self.assembling(size=1200)
         process.send_signal(signal.SIGINT)
 
         def has_ended():  # what comes 0.2 s later or sooner is the same wish
