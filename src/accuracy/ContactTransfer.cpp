@@ -29,7 +29,7 @@ std::vector<Point> placesOf(const Decomposition& decomposition, const ContactLay
 }
 
 /// What acts at a row.
-struct Action {
+struct Traction {
   double pressure = 0; ///< λ/area
   /// The direction of friction in space, as long as the share of its bound that it takes.
   Eigen::Vector3d friction = Eigen::Vector3d::Zero();
@@ -48,8 +48,8 @@ void forEachFrictionNode(const Decomposition& decomposition, const ContactLayout
 }
 
 /// What acts at all rows of a contact, on every rank. Collective.
-std::vector<Action> actions(const Decomposition& decomposition, const ContactLayout& contact,
-                            const Vector& lambda) {
+std::vector<Traction> tractions(const Decomposition& decomposition, const ContactLayout& contact,
+                                const Vector& lambda) {
   constexpr std::size_t perRow = 4;
   const Map& map = *lambda.getMap();
   const auto values = lambda.getData();
@@ -67,7 +67,7 @@ std::vector<Action> actions(const Decomposition& decomposition, const ContactLay
         sums[perRow * row + 1 + d] += values[node.firstTangent + k] / bound * tangents.at(row)[k][d];
   });
   sumOverRanks(*decomposition.problem.comm, std::span(sums));
-  std::vector<Action> result;
+  std::vector<Traction> result;
   for (std::size_t first = 0; first < sums.size(); first += perRow)
     result.push_back({sums[first], {sums[first + 1], sums[first + 2], sums[first + 3]}});
   return result;
@@ -102,7 +102,7 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
   const auto values = start.getDataNonConst();
   for (std::size_t c = 0; c < to.contacts.size(); ++c) {
     const ContactLayout &coarse = from.contacts[c], &fine = to.contacts[c];
-    const std::vector<Action> known = actions(from, coarse, lambda);
+    const std::vector<Traction> known = tractions(from, coarse, lambda);
     if (known.empty())
       continue;
     const std::vector<Point> places = placesOf(to, fine);
@@ -111,13 +111,14 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
       if (const LocalOrdinal local = map.getLocalElement(fine.firstRow + row);
           local >= 0 && fine.portion(row) > 0)
         values[local] = std::max(0.0, known[nearest.of(places[row])].pressure) * fine.areas[row];
+    const double side = coarse.firstBody == fine.firstBody ? 1 : -1; // whose body has the rows
     const contact::ContactTangents tangents(fine);
     forEachFrictionNode(to, fine, [&](std::size_t row, const decomposition::FrictionNode& node) {
       const Eigen::Vector3d& friction = known[nearest.of(places[row])].friction;
       Eigen::Vector2d along(friction.dot(tangents.at(row)[0]),
                             to.problem.components > 2 ? friction.dot(tangents.at(row)[1]) : 0.0);
       const double share = friction.norm() > nearlyAll ? outside : friction.norm();
-      along *= share / std::max(along.norm(), least);
+      along *= side * share / std::max(along.norm(), least);
       for (int k = 0; k < to.problem.components - 1; ++k)
         values[node.firstTangent + k] = to.data.frictionBound(node, values[node.contact]) * along[k];
     });

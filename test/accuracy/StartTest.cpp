@@ -114,6 +114,35 @@ TEST_F(StartTest, ContactOnTheSameMeshIsItsOwn) {
   }
 }
 
+TEST_F(StartTest, FrictionOnTheSameMeshIsItsOwn) {
+  constexpr double mu = 0.3, nearlyAll = 0.99; // from there on a node is taken to slip
+  for (const test::Kind& kind : test::kinds()) {
+    scene::Scene scene = test::stackedBlocks(kind, 6, 1, directory, *comm);
+    if (scene.bodies[0].physics == fem::Physics::membrane)
+      continue;
+    scene.contacts[0].friction = mu;
+    scene.bodies[1].loads.push_back( // equal blocks that are pressed alone need no friction
+        {"corner", fem::SolidLoad::Kind::point, {}, "", {1, 1, 2}, {0.01, -0.02, 0.03}});
+    if (mesh::dimensionOf(kind.cell) == 2)
+      scene.bodies[1].loads.back().point = {1, 2, 0};
+    const SolvedScene solved(scene, comm);
+    const Vector& lambda = *solved.solution.multiplier;
+    Vector start(lambda.getMap());
+    transferContact(solved.decomposition, lambda, solved.decomposition, start);
+    const auto values = start.getData(), own = lambda.getData();
+    double largest = 0;
+    for (const decomposition::FrictionNode& node : solved.decomposition.problem.frictionNodes)
+      for (int k = 0; k < solved.decomposition.problem.components - 1; ++k) {
+        const double bound = mu * std::max(0.0, own[node.contact]);
+        EXPECT_NEAR(values[node.firstTangent + k], own[node.firstTangent + k],
+                    (1 - nearlyAll) * bound + 1e-12 * lambda.normInf())
+            << toString(kind.physics);
+        largest = std::max(largest, std::abs(own[node.firstTangent + k]) - (1 - nearlyAll) * bound);
+      }
+    EXPECT_GT(maxOverRanks(*comm, largest), 0) << toString(kind.physics); // there is some
+  }
+}
+
 TEST_F(StartTest, ActiveSetsStartNearTheZoneOfACoarserMesh) {
   const scene::Scene scene = scene::modelProblem(false, 2, 16);
   const SolvedScene coarse(scene, comm), fine(refined(scene), comm);
