@@ -130,12 +130,13 @@ TEST_F(StartTest, FrictionOnTheSameMeshIsItsOwn) {
     Vector start(lambda.getMap());
     transferContact(solved.decomposition, lambda, solved.decomposition, start);
     const auto values = start.getData(), own = lambda.getData();
+    const double rounding = 1e-12 * lambda.normInf();
     double largest = 0;
     for (const decomposition::FrictionNode& node : solved.decomposition.problem.frictionNodes)
       for (int k = 0; k < solved.decomposition.problem.components - 1; ++k) {
         const double bound = mu * std::max(0.0, own[node.contact]);
         EXPECT_NEAR(values[node.firstTangent + k], own[node.firstTangent + k],
-                    (1 - nearlyAll) * bound + 1e-12 * lambda.normInf())
+                    (1 - nearlyAll) * bound + rounding)
             << toString(kind.physics);
         largest = std::max(largest, std::abs(own[node.firstTangent + k]) - (1 - nearlyAll) * bound);
       }
