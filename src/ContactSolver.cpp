@@ -256,8 +256,13 @@ void ContactSolver::confirm(const fetidp::ContactSolution& solution, double erro
     reason << "constraints are violated by " << solution.feasibility << " of the largest displacement";
   else if (solution.equilibrium > 2 * dualParameters_.equilibriumTolerance)
     reason << "floating bodies are out of balance by " << solution.equilibrium << " of the loads on them";
-  else
+  if (reason.str().empty()) {
+    if (!plan().isBalanced && solution.relativeProjectedGradient > 2 * tolerance)
+      report_.reason =
+          "the projected gradient is what rounding makes of displacements and gaps; doubles hold no "
+          "smaller one";
     return;
+  }
   report_.status = qp::Status::stagnated;
   report_.reason = "the iteration met the tolerance, but " + reason.str() +
                    ": round-off in the subdomain solves allows no better; avoid very flat elements and very "
