@@ -1,7 +1,7 @@
 #pragma once
 
-/// Fluxes of elements from displacements at their nodes, and the density of their energy: what the integrals of
-/// FluxIntegrals.hpp are made of.
+/// Fluxes of elements from displacements at their nodes, and the density of their energy: what the integrals
+/// of FluxIntegrals.hpp are made of.
 
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
