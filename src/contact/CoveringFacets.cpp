@@ -100,9 +100,9 @@ void CoveringFacets::refuse() {
     covering(f, viewPlane(f), size_);
   const char* why = misses_.deep > 0 ? "overlap deeper than a body is thick: one lies behind the other; name "
                                        "the surfaces that are to meet, or move one of the bodies"
-                    : misses_.away > 0 ? "face away from each other; name the surfaces that are to meet"
-                    : misses_.far > 0
-                        ? "are farther apart than the contact's distance; enlarge it"
+                    : misses_.far > 0 ? "are farther apart than the contact's distance; enlarge it"
+                    : misses_.away > 0
+                        ? "face away from each other; name the surfaces that are to meet"
                         : "do not overlap at all, seen along their normals; check which surfaces are to meet";
   throw InputError("contact '" + terms_.name + "': the two surfaces " + why);
 }

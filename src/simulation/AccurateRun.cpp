@@ -100,6 +100,7 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
         result.run.result);
   if (accuracy.requiresSmall)
     requireSmall(result.run.result);
+  requireAllContacts(result.run.result);
   return result;
 }
 

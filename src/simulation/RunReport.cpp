@@ -257,6 +257,14 @@ void requireSmall(RunResult& result) {
   result.reason = large;
 }
 
+void requireAllContacts(RunResult& result) {
+  if (result.missedContacts.empty() ||
+      (result.status != RunStatus::converged && result.status != RunStatus::targetMissed))
+    return;
+  result.status = RunStatus::missedContact;
+  result.reason = result.missedContacts;
+}
+
 std::string statusOf(const RunResult& result) {
   switch (result.status) {
   case RunStatus::converged:

@@ -101,7 +101,8 @@ struct RunResult {
   std::optional<ErrorResult> error;           ///< if asked for
   std::optional<accuracy::EnergyBound> bound; ///< if asked for
   std::string doubts;                         ///< what an estimate does not see; perhaps empty
-  std::optional<Quantity> quantity;           ///< if asked for
+  std::string missedContacts;       ///< what overlaps without a row (LeftOutNodes.hpp); empty: nothing
+  std::optional<Quantity> quantity; ///< if asked for
   std::optional<CoarserStart> start;
   std::vector<BodyResult> bodies;
   bool choosesClusters = false; ///< whether some body's clusters were left to choose
@@ -121,6 +122,9 @@ std::string largeDeformations(const RunResult& result, double limit);
 
 /// Has a run that converged fail with this sentence where displacements are large (Deformation::large).
 void requireSmall(RunResult& result);
+
+/// Has a run that has come to an end fail where nodes without a row meet (RunResult::missedContacts).
+void requireAllContacts(RunResult& result);
 
 /// "Converged", "TargetMissed", "Interrupted", "Running", or what the iteration ended with.
 std::string statusOf(const RunResult& result);

@@ -221,11 +221,8 @@ void evaluateRun(SceneRun& run) {
     result.error = {run.error->energyNorm, run.error->discretisation, run.solution.algebraicError, 1};
   result.times.recovery =
       run.solver->times().recovery + maxOverRanks(solved.comm(), Teuchos::Time::wallTime() - began);
-  if (const std::string overlaps = overlapsBeyondDistance(solved);
-      !overlaps.empty() && result.status == RunStatus::converged) {
-    result.status = RunStatus::missedContact;
-    result.reason = overlaps;
-  }
+  result.missedContacts = overlapsBeyondDistance(solved);
+  requireAllContacts(result);
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
   for (const std::string& doubt :
        {largeDeformations(result, Deformation::doubtful), strongFeedback(result.feedback)})

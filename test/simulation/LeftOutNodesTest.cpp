@@ -4,11 +4,13 @@
 #include "support/SolidScenes.hpp"
 #include "support/TurnedMesh.hpp"
 
+#include "epafi/simulation/AccurateRun.hpp"
 #include "epafi/simulation/SceneRun.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace epafi::simulation {
@@ -62,6 +64,30 @@ TEST(LeftOutNodesTest, OfABlockPressedOntoAnObstacle) {
       scene.contacts[0].obstacle.radius = 20;
       expectFound(scene, 1e-4);
       expectFound(scene, 1e-4, 1e-3); // a gap that is not of geometry does not count
+    }
+}
+
+TEST(LeftOutNodesTest, OfARunToATarget) {
+  scene::Scene scene;
+  scene.bodies = {test::block("block", {{0, 0, 0}, {1, 1, 0}}, {8, 4, 0}, test::cutByMetis(2))};
+  scene.bodies[0].supports = {test::slide("left")};
+  scene.bodies[0].loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "top", {}, {0.5, 0, 0}}};
+  scene.contacts = {test::onPlane("touch", 0, "bottom", {0, -20, 0}, {0, 1, 0})};
+  scene.contacts[0].obstacle.kind = scene::Obstacle::Kind::sphere;
+  scene.contacts[0].obstacle.radius = 20;
+  for (const double distance : {1e-3, std::numeric_limits<double>::infinity()})
+    for (const int meshes : {1, 6}) { // the target is missed, and met
+      scene.contacts[0].distance = distance;
+      AccuracyParameters accuracy;
+      accuracy.target = 0.1;
+      accuracy.maxLevels = meshes;
+      accuracy.refinement = AccuracyParameters::Refinement::even;
+      const RunResult result =
+          solveToTarget(scene, {}, accuracy, Tpetra::getDefaultComm(), nullptr, {}).run.result;
+      EXPECT_EQ(result.status, std::isfinite(distance) ? RunStatus::missedContact
+                               : meshes == 1           ? RunStatus::targetMissed
+                                                       : RunStatus::converged)
+          << result.reason;
     }
 }
 
