@@ -12,7 +12,8 @@ namespace epafi::drivers {
 
 using deck::Print;
 
-DeckPrints::DeckPrints(const std::string& scene) {
+DeckPrints::DeckPrints(const std::string& scene, const std::vector<simulation::NodeSlip>& slip)
+    : slip_(slip) {
   if (!deck::isDeck(scene))
     return;
   deck_ = deck::readDeck(scene);

@@ -25,7 +25,8 @@ namespace epafi::drivers {
 class DeckPrints {
 public:
   /// \param scene  the deck's file; another scene's prints are empty. Reads on the rank that calls it.
-  explicit DeckPrints(const std::string& scene);
+  /// \param slip  of load steps before (StepsDone::slip)
+  explicit DeckPrints(const std::string& scene, const std::vector<simulation::NodeSlip>& slip = {});
 
   /// Adds what is asked for at the end of a step. \param step  from 0 on. Collective.
   void add(simulation::SceneRun& run, std::size_t step);

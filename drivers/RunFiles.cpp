@@ -138,6 +138,7 @@ void RunFiles::goOn() {
   if (done == nullptr)
     return;
   numEarlier_ = done->results.size();
+  earlierSlip_ = done->slip;
   if (options_.output.empty())
     return;
   older_ = std::filesystem::path(options_.restart).parent_path() /
@@ -223,7 +224,8 @@ void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
       collectively(*comm_, [&] {
         const bool isOwnMesh = !run.result.target; // finer ones have numbers of their own
         frd_ = output::FrdFile(comm_->getRank() == 0 && isOwnMesh ? numberingOf(options_.scene)
-                                                                  : output::FrdNumbering());
+                                                                  : output::FrdNumbering(),
+                               earlierSlip_);
       });
     if (steps.empty())
       frd_.add(run.solved(), run.evaluation);
@@ -238,7 +240,7 @@ void RunFiles::preparePrints(simulation::SceneRun& run, output::FileSet& files) 
   attempt(options_.dat, [&] {
     const std::size_t numSteps = std::max<std::size_t>(1, run.result.steps.size());
     if (numSteps < numEarlier_ + 2)
-      collectively(*comm_, [&] { prints_ = DeckPrints(comm_->getRank() == 0 ? options_.scene : ""); });
+      collectively(*comm_, [&] { prints_ = DeckPrints(comm_->getRank() == 0 ? options_.scene : "", earlierSlip_); });
     prints_.add(run, numSteps - 1);
     files.write(options_.dat, [&] { return prints_.text(); });
     return line("dat", options_.dat);

@@ -69,6 +69,7 @@ private:
   std::vector<output::FieldStep> steps_; ///< up to the one at hand, but those whose fields are lost
   std::filesystem::path older_;          ///< HDF5 file of the steps of an earlier run; empty: none
   std::size_t numEarlier_ = 0;           ///< load steps that an earlier run has done
+  std::vector<simulation::NodeSlip> earlierSlip_; ///< what friction has slipped in them
   output::FrdFile frd_;                  ///< of the mesh at hand, up to the step at hand
   DeckPrints prints_{""};                ///< likewise
   std::string lines_;

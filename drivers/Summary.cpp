@@ -134,12 +134,15 @@ void describeQuantity(std::ostream& text, const simulation::Quantity& quantity) 
 void describeError(std::ostream& text, const simulation::ErrorResult& error) {
   const double whole = std::hypot(error.energyNorm, error.discretisation);
   const auto share = [whole](double absolute) { return percent(whole > 0 ? absolute / whole : 0); };
-  text << "\n              estimated error " << percent(error.relative())
-       << " of the energy norm: " << share(error.discretisation) << " of the mesh, ";
+  text << "\n              estimated error ";
+  if (!std::isinf(error.algebraic))
+    text << percent(error.relative()) << " of the energy norm: ";
+  text << share(error.discretisation) << " of the mesh, ";
   if (std::isfinite(error.algebraic))
     text << share(error.algebraic) << " of the iteration";
   else
-    text << "that of the iteration not measured without preconditioner";
+    text << "that of the iteration not "
+         << (std::isnan(error.algebraic) ? "measured" : "bounded by anything");
 }
 
 /// Energies below and above the exact one, and what takes how much of the distance.

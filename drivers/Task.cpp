@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace epafi::drivers {
@@ -48,15 +49,29 @@ std::vector<std::uint64_t> marksOf(Teuchos::ParameterList list, const std::vecto
   return marks;
 }
 
+/// How large the error of a run is, or of its worst step; NaN: not known.
+double errorOf(const simulation::RunResult& result) {
+  if (result.quantity && !result.quantity->failure.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  if (result.quantity)
+    return (result.quantity->bar + result.quantity->algebraic) / std::abs(result.quantity->value);
+  double largest = result.error ? result.error->relative() : std::numeric_limits<double>::quiet_NaN();
+  for (const simulation::StepResult& step : result.steps)
+    largest = std::isnan(largest) || step.relativeError <= largest ? largest : step.relativeError;
+  return largest;
+}
+
 /// A run that stays on its mesh, by its estimated error or the bar of what is asked for.
 void judge(double target, simulation::RunResult& result) {
-  const double error = result.quantity ? result.quantity->bar / std::abs(result.quantity->value)
-                       : result.error  ? result.error->relative()
-                                       : 0;
+  const double error = errorOf(result);
   if (result.status != simulation::RunStatus::converged || error <= target)
     return;
   result.status = simulation::RunStatus::targetMissed;
-  result.reason = "the estimated error is " + text(100 * error) + " %, and " + text(100 * target) +
+  result.reason = (std::isfinite(error) ? "the estimated error is " + text(100 * error) + " %"
+                   : result.quantity    ? "there is no error bar (" + result.quantity->failure + ")"
+                                        : "the error is not known of all there is") +
+                  (result.steps.empty() || !std::isfinite(error) ? "" : " in the worst load step") +
+                  ", and " + text(100 * target) +
                   " % was asked; finer meshes would not have the nodes, steps or integration points of this "
                   "deck: refine it where it comes from";
 }

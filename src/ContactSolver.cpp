@@ -128,7 +128,7 @@ fetidp::ContactSolution ContactSolver::solve(const decomposition::ProblemData& d
   solution.algebraicError = algebraicErrorOf(data, solution);
   confirm(solution, dual.errorTarget);
   if (data.hasCoulombFriction())
-    measureFeedback(data, solution);
+    measureFeedback(data, interruption, solution);
   times_.recovery = longest(*problem_->comm, recoveryStart);
   return solution;
 }
@@ -174,10 +174,15 @@ double ContactSolver::algebraicErrorOf(const decomposition::ProblemData& data,
 
 /// With Coulomb's friction the error of the bounds is one of the solution, too.
 void ContactSolver::measureFeedback(const decomposition::ProblemData& data,
+                                    const qp::Interruption& interruption,
                                     fetidp::ContactSolution& solution) const {
-  if (run_.purpose == fetidp::Purpose::start || report_.status == qp::Status::interrupted ||
-      report_.status == qp::Status::timeLimit || report_.status == qp::Status::notFinite)
+  if (run_.purpose == fetidp::Purpose::start)
     return;
+  solution.frictionFeedback = std::numeric_limits<double>::quiet_NaN();
+  if (report_.status != qp::Status::converged) { // T′ tells of solutions
+    solution.algebraicError = solution.frictionFeedback;
+    return;
+  }
   qp::QuadraticProgram program;
   program.hessian = dual_->operators().flexibility();
   program.preconditioner = dual_->operators().facePreconditioner;
@@ -190,11 +195,17 @@ void ContactSolver::measureFeedback(const decomposition::ProblemData& data,
     error.update(1.0, gradient.normInf() == 0 ? *solution.multiplier : gradient, 0.0);
   else
     m->apply(gradient, error);
-  const qp::BoundFeedback feedback = qp::boundFeedback(program, *solution.multiplier, *solution.slack, error);
+  const qp::BoundFeedback feedback =
+      qp::boundFeedback(program, *solution.multiplier, *solution.slack, error, [&] {
+        return holdsAnywhere(*problem_->comm, interruption.timeIsUp() || interruption.isWanted());
+      });
   solution.frictionFeedback = feedback.factor;
   solution.feedbackMultiplications = feedback.multiplications;
-  solution.algebraicError *= feedback.factor < 1 ? std::max(feedback.amplification, 1 / (1 - feedback.factor))
-                                                 : std::numeric_limits<double>::quiet_NaN();
+  if (!(feedback.factor < 1)) // or not known
+    solution.algebraicError =
+        feedback.factor >= 1 ? std::numeric_limits<double>::infinity() : feedback.factor;
+  else
+    solution.algebraicError *= std::max(feedback.amplification, 1 / (1 - feedback.factor));
 }
 
 namespace {

@@ -121,7 +121,8 @@ private:
   void confirm(const fetidp::ContactSolution& solution, double errorTarget);
   [[nodiscard]] double algebraicErrorOf(const decomposition::ProblemData& data,
                                         const fetidp::ContactSolution& solution) const;
-  void measureFeedback(const decomposition::ProblemData& data, fetidp::ContactSolution& solution) const;
+  void measureFeedback(const decomposition::ProblemData& data, const qp::Interruption& interruption,
+                       fetidp::ContactSolution& solution) const;
   void settle(const decomposition::ProblemData& data, fetidp::DualSolution dual,
               const qp::Interruption& interruption, fetidp::ContactSolution& solution);
   [[nodiscard]] std::string describeDualOperator() const;

@@ -138,7 +138,9 @@ double MeshResult::relative() const {
     const double bar = quantity->discretisation + quantity->algebraic;
     return bar > 0 ? bar / std::abs(quantity->value) : 0;
   }
-  const double absolute = std::hypot(discretisation, std::isfinite(algebraic) ? algebraic : 0);
+  if (std::isinf(algebraic)) // nothing bounds it
+    return algebraic;
+  const double absolute = std::hypot(discretisation, std::isnan(algebraic) ? 0 : algebraic);
   const double whole = std::hypot(energyNorm, absolute);
   return whole > 0 ? absolute / whole : 0;
 }

@@ -3,6 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Slab.hpp"
 #include "epafi/simulation/FrictionResults.hpp"
+#include "epafi/simulation/RowShares.hpp"
 
 #include <Eigen/Geometry>
 
@@ -45,14 +46,37 @@ std::vector<ContactValues> gatherContactValues(const simulation::SolvedScene& so
   return gatherOnFirst(solved.comm(), values);
 }
 
+TotalSlip::TotalSlip(const std::vector<simulation::NodeSlip>& slip) {
+  for (const simulation::NodeSlip& node : slip)
+    earlier_[{node.contact, node.body, node.node}] = node.slip;
+}
+
 void TotalSlip::enter(const simulation::SolvedScene& solved, int contact,
                       std::vector<ContactValues>& values) {
   const contact::ContactLayout& layout = solved.decomposition.contacts[contact];
   const double slope = solved.scene.contacts[layout.number].stickSlope;
   const std::vector<std::size_t> own = layout.ownRows();
   constexpr std::size_t slip = 1, traction = 4;
+  const auto keyOf = [&layout](std::size_t row) {
+    return Key{layout.number, layout.firstBody, layout.firstNodes[row]};
+  };
+  const simulation::RowShares shares =
+      earlier_.empty() ? simulation::RowShares() : simulation::sharesOfSlacks(layout);
+  const auto earlierAt = [&](std::size_t row) {
+    Vector3d sum = Vector3d::Zero();
+    if (!earlier_.empty())
+      simulation::forEachRow(shares, row, [&](std::size_t other, double weight) {
+        if (const auto known = earlier_.find(keyOf(other)); known != earlier_.end())
+          sum += weight * Vector3d::Map(known->second.data());
+      });
+    const std::array<Vector3d, 2> tangents = tangentsOf(-layout.slidingNormalAt(row));
+    return std::array{tangents[0].dot(sum), tangents[1].dot(sum)};
+  };
   for (std::size_t k = 0; k < values.size(); ++k) {
-    std::array<double, 2>& total = slipped_[{layout.number, layout.firstBody, layout.firstNodes[own[k]]}];
+    const Key key = keyOf(own[k]);
+    if (!slipped_.contains(key))
+      slipped_[key] = earlierAt(own[k]);
+    std::array<double, 2>& total = slipped_[key];
     for (std::size_t t = 0; t < 2; ++t) {
       total[t] += values[k][slip + t];
       values[k][slip + t] = total[t] + (slope > 0 ? values[k][traction + t] / slope : 0);

@@ -4,6 +4,7 @@
 
 #include "epafi/simulation/ContactState.hpp"
 #include "epafi/simulation/SolvedScene.hpp"
+#include "epafi/simulation/StepsDone.hpp"
 
 #include <array>
 #include <map>
@@ -23,12 +24,17 @@ std::vector<ContactValues> gatherContactValues(const simulation::SolvedScene& so
 /// the step, and has not what friction that sticks gives way by (Stick Slope).
 class TotalSlip {
 public:
+  TotalSlip() = default;
+  /// After load steps that are done. \param slip  simulation::StepsDone::slip
+  explicit TotalSlip(const std::vector<simulation::NodeSlip>& slip);
   /// Enters the total in a step's values, on rank 0; once for each contact and step, in their order.
   void enter(const simulation::SolvedScene& solved, int contact, std::vector<ContactValues>& values);
 
 private:
-  /// By contact of the scene, body and node.
-  std::map<std::array<GlobalOrdinal, 3>, std::array<double, 2>> slipped_;
+  using Key = std::array<GlobalOrdinal, 3>; ///< contact of the scene, body and node
+
+  std::map<Key, std::array<double, 2>> slipped_;
+  std::map<Key, Vector3> earlier_; ///< what of it an earlier run has left
 };
 
 } // namespace epafi::output

@@ -16,8 +16,10 @@ namespace {
 std::optional<double> numberOf(hid_t file, const std::string& group, const char* name) {
   const Handle attribute(file < 0 ? -1 : H5Aopen_by_name(file, group.c_str(), name, H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
+  const Handle extent(attribute < 0 ? -1 : H5Aget_space(attribute), H5Sclose);
   double number = 0;
-  if (attribute < 0 || H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) < 0)
+  if (extent < 0 || H5Sget_simple_extent_npoints(extent) != 1 ||
+      H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) < 0)
     return std::nullopt;
   return number;
 }

@@ -37,8 +37,9 @@ void requireElasticBodies(const scene::Scene& scene, const std::string& asker);
 /// of which the results know. A body's elements have its number as material, and its name stands in the head.
 class FrdFile {
 public:
-  /// Empty. \param numbering  of all that is added
-  explicit FrdFile(FrdNumbering numbering = {}) : numbering_(std::move(numbering)) {}
+  /// Empty. \param numbering  of all that is added  \param slip  of load steps before (StepsDone::slip)
+  explicit FrdFile(FrdNumbering numbering = {}, const std::vector<simulation::NodeSlip>& slip = {})
+      : numbering_(std::move(numbering)), slip_(slip) {}
 
   /// Adds results, and, before the first ones, the mesh.
   /// \param step  its number is the results' time

@@ -68,9 +68,9 @@ public:
     if (!text_.empty())
       refuse();
   }
+  [[noreturn]] static void refuse() { throw InputError("holds load steps that cannot be read"); }
 
 private:
-  [[noreturn]] static void refuse() { throw InputError("holds load steps that cannot be read"); }
   void endLine() {
     if (!text_.starts_with('\n'))
       refuse();
@@ -139,7 +139,7 @@ private:
   void pass(PreloadResult& preload) { (*this)(preload.name, preload.force, preload.shortening); }
   void pass(StepResult& step) {
     (*this)(step.name, step.multiplications, step.strainEnergy, step.loadWork, step.dissipation,
-            step.contacts, step.supports, step.preloads, step.reason, step.feedback);
+            step.contacts, step.supports, step.preloads, step.reason, step.feedback, step.relativeError);
     step.status = RunStatus::converged; // others are not done
   }
   void pass(FrictionFeedback& feedback) { (*this)(feedback.factor, feedback.multiplications); }
@@ -152,7 +152,7 @@ private:
 /// All of it.
 template <class File>
 void pass(Passage<File>& passage, StepsDone& done) {
-  passage(done.marks, done.results, done.slip, done.held);
+  passage(done.marks, done.meshes, done.results, done.slip, done.held);
 }
 
 } // namespace
@@ -169,6 +169,8 @@ StepsDone stepsOf(std::string_view text) {
   StepsDone done;
   pass(passage, done);
   passage.file().requireEnd();
+  if (done.results.empty()) // then there is nothing to go on from
+    StepsReader::refuse();
   return done;
 }
 

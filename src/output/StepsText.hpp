@@ -13,8 +13,8 @@ namespace epafi::output {
 /// StepsDone::changesRows, which depends on the step to come. Not collective.
 std::string stepsText(const simulation::StepsDone& done);
 
-/// Not collective. \throws InputError, "holds load steps that cannot be read", for what is no such text;
-/// takes no more memory than a multiple of its length.
+/// Not collective. \throws InputError, "holds load steps that cannot be read", for what is no such text, or
+/// has no step; takes no more memory than a multiple of its length.
 simulation::StepsDone stepsOf(std::string_view text);
 
 } // namespace epafi::output

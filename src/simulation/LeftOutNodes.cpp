@@ -134,7 +134,7 @@ std::string overlapOf(const ContactLayout& whole, const ContactLayout& used, dou
 
 } // namespace
 
-std::string overlapsBeyondDistance(const SolvedScene& solved) {
+std::string overlapsBeyondDistance(const SolvedScene& solved, std::string& doubt) {
   Motions motions(solved);
   const std::optional<scene::Scene> scene = withoutDistances(solved, motions);
   if (!scene)
@@ -152,7 +152,8 @@ std::string overlapsBeyondDistance(const SolvedScene& solved) {
           add(overlapOf(whole, used, clearly * motions.of(asked), asked.gap, solved));
       }
   } catch (const InputError& error) { // on all ranks
-    add(std::string("whether nodes meet that a Distance leaves out could not be found out: ") + error.what());
+    doubt =
+        std::string("whether nodes meet that a Distance leaves out could not be found out: ") + error.what();
   }
   return all;
 }

@@ -234,7 +234,9 @@ void enterCosts(const RunResult& result, ParameterList& list) {
 } // namespace
 
 double ErrorResult::relative() const {
-  const double absolute = std::hypot(discretisation, std::isfinite(algebraic) ? algebraic : 0);
+  if (std::isinf(algebraic)) // nothing bounds it
+    return algebraic;
+  const double absolute = std::hypot(discretisation, std::isnan(algebraic) ? 0 : algebraic);
   const double whole = std::hypot(energyNorm, absolute);
   return whole > 0 ? absolute / whole : 0;
 }

@@ -47,7 +47,7 @@ struct CoarserStart {
 struct ErrorResult {
   double energyNorm = 0;     ///< ‖u_h‖_K
   double discretisation = 0; ///< of the mesh, divided by the effectivity
-  double algebraic = 0;      ///< of the iteration at most; NaN: not known
+  double algebraic = 0;      ///< of the iteration at most; ∞: nothing bounds it; NaN: not known
   double effectivity = 1;    ///< estimate by error, as a series of meshes tells
 
   /// Both together, relative to the norm of the exact solution.
@@ -85,6 +85,8 @@ struct StepResult {
   RunStatus status = RunStatus::notConverged;
   std::string reason;                                      ///< one sentence
   std::optional<FrictionFeedback> feedback = std::nullopt; ///< with Coulomb's friction
+  /// ErrorResult::relative(); NaN: not estimated.
+  double relativeError = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// All of it.

@@ -181,7 +181,7 @@ void enterSolution(SceneRun& run) {
   result.contactForce = solution.contactForce;
   result.loadWork = solution.loadWork;
   result.feedback.reset();
-  if (run.decomposition->data.hasCoulombFriction())
+  if (run.decomposition->data.hasCoulombFriction() && std::isfinite(solution.frictionFeedback))
     result.feedback = {solution.frictionFeedback, solution.feedbackMultiplications};
   result.reason = result.solve.statusReason;
   result.status = result.solve.status == qp::Status::converged     ? RunStatus::converged
@@ -200,6 +200,17 @@ std::string strongFeedback(const std::optional<FrictionFeedback>& feedback) {
                        ? ": the nearer it is to 1, the less is known of whether there is one solution alone"
                        : ": from 1 on there may be other solutions than this one, and nothing bounds the "
                          "iteration's error");
+}
+
+/// A sentence where what is asked for is less than the rounding of displacements; empty if it is not.
+std::string roundedGradient(const SceneRun& run) {
+  const double found = run.solution.relativeProjectedGradient, asked = run.solver->plan().tolerance;
+  return run.solver->plan().isBalanced || run.result.status != RunStatus::converged || found <= 2 * asked
+             ? ""
+             : "displacements are so large beside what deforms that their rounding leaves a projected "
+               "gradient "
+               "of " +
+                   text(found, 2) + ": forces are not more exact than that";
 }
 
 /// What follows from the solution. Collective.
@@ -221,11 +232,12 @@ void evaluateRun(SceneRun& run) {
     result.error = {run.error->energyNorm, run.error->discretisation, run.solution.algebraicError, 1};
   result.times.recovery =
       run.solver->times().recovery + maxOverRanks(solved.comm(), Teuchos::Time::wallTime() - began);
-  result.missedContacts = overlapsBeyondDistance(solved);
+  std::string unseen;
+  result.missedContacts = overlapsBeyondDistance(solved, unseen);
   requireAllContacts(result);
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
-  for (const std::string& doubt :
-       {largeDeformations(result, Deformation::doubtful), strongFeedback(result.feedback)})
+  for (const std::string& doubt : {largeDeformations(result, Deformation::doubtful),
+                                   strongFeedback(result.feedback), unseen, roundedGradient(run)})
     if (!doubt.empty())
       result.doubts += (result.doubts.empty() ? "" : ". ") + doubt;
 }

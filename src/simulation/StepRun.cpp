@@ -1,5 +1,6 @@
 #include "epafi/simulation/StepRun.hpp"
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -42,7 +44,8 @@ StepResult resultOf(const std::string& name, RunResult& result) {
           result.preloads,
           result.status,
           result.reason,
-          result.feedback};
+          result.feedback,
+          result.error ? result.error->relative() : std::numeric_limits<double>::quiet_NaN()};
 }
 
 /// Does what a step needs; whether it has a solution is said with its name.
@@ -136,6 +139,35 @@ private:
 
   std::map<Key, Eigen::Vector3d> slip_; ///< of this rank's rows; before the first `enter` perhaps of others
 };
+
+/// StepsDone::meshes: a sum over nodes of their places with weights of their own. Collective.
+std::vector<double> numbersOf(const model::Decomposition& cut) {
+  constexpr double golden = 0.6180339887498949;
+  std::vector<AccurateSum> sums(cut.bodies.size());
+  for (const decomposition::Subdomain& part : cut.problem.subdomains)
+    for (const GlobalOrdinal node : part.nodes) {
+      const Point at = cut.bodies[part.body].mesh->point(node);
+      const double weight = 1 + std::fmod(golden * static_cast<double>(node + 1), 1.0);
+      sums[part.body].add(weight * (at[0] + weight * (at[1] + weight * at[2])));
+    }
+  std::vector<double> numbers(sums.size());
+  sumOverRanks(*cut.problem.comm, sums, numbers.data());
+  return numbers;
+}
+
+/// Nodes that have slipped are known by their numbers. Collective. \throws InputError if a mesh has changed
+void requireSameMeshes(StepsDone& done, const model::Decomposition& cut) {
+  constexpr double roundOff = 1e-9;
+  const std::vector<double> numbers = numbersOf(cut);
+  if (done.results.empty())
+    done.meshes = numbers;
+  for (std::size_t b = 0; b < numbers.size(); ++b)
+    if (done.meshes.size() != numbers.size() ||
+        !(std::abs(done.meshes[b] - numbers[b]) <= roundOff * std::abs(numbers[b])))
+      throw InputError("body " + inQuotes(cut.bodies[b].name) +
+                       " has another mesh, or is cut in another way, than in the run that solved the steps "
+                       "before; name a checkpoint of this one, or start without");
+}
 
 /// The next step's scene, with what the solution of the step before says of it. \throws InputError if that is
 /// not known
@@ -235,8 +267,11 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
         bodies = std::move(run.decomposition->bodies);
         first.bodies = &bodies;
       }
-      if (k > 0)
-        first.changeData = [&](model::Decomposition& cut) { slip.enter(cut); };
+      first.changeData = [&](model::Decomposition& cut) {
+        requireSameMeshes(done, cut);
+        if (k > 0)
+          slip.enter(cut);
+      };
       run.solver.reset(); // before there is another one
       run = solveScene(next, solverParameters, comm, first);
     });

@@ -25,6 +25,7 @@ struct HeldSupport {
 
 /// The first steps of a scene, all of them solved.
 struct StepsDone {
+  std::vector<double> meshes; ///< of each body a number that tells its mesh, as it is cut, from others
   std::vector<StepResult> results;
   /// Of all nodes with friction, by contact, body and node: on rank 0, the others having none, or on all
   /// ranks.

@@ -120,6 +120,7 @@ simulation::StepsDone stepsDone() {
   step.loadWork = -1e-300;
   step.reason = "the tolerance is reached";
   step.feedback = {0.25, 9};
+  step.relativeError = 0.01;
   simulation::ContactResult contact;
   contact.name = "";
   contact.candidates = 12;
@@ -130,6 +131,7 @@ simulation::StepsDone stepsDone() {
   step.contacts = {contact, {}};
   step.supports = {{"body", "foot", {1, 2, 3}, {4, 5, 6}}};
   step.preloads = {{"bolt", 100, 0.1}};
+  done.meshes = {0.1, -7e300};
   done.results = {step, {}};
   done.slip = {{0, 1, 77, {0.1, 0.2, 0.3}}, {1, 0, 3, {0, -1, 0}}};
   done.held = {{"body", "foot", {{5, {1, 2, 3}}, {9, {-1, 0.1, 0}}}}};
@@ -151,6 +153,9 @@ TEST_F(CheckpointTest, LoadStepsAreReadOnAllRanksAsTheyWereWritten) {
   EXPECT_EQ(step.strainEnergy, first.strainEnergy);
   EXPECT_EQ(step.loadWork, first.loadWork);
   EXPECT_EQ(step.feedback->factor, 0.25);
+  EXPECT_EQ(step.relativeError, 0.01);
+  EXPECT_TRUE(std::isnan(read.results[1].relativeError));
+  EXPECT_EQ(read.meshes, written.meshes);
   ASSERT_EQ(step.contacts.size(), 2U);
   EXPECT_EQ(step.contacts[0].resultant, first.contacts[0].resultant);
   EXPECT_EQ(step.contacts[0].penetration, first.contacts[0].penetration);
@@ -176,7 +181,8 @@ TEST_F(CheckpointTest, StepsThatCannotBeReadAreRefusedWithARightChecksumToo) {
     ::epafi::test::expectSays(
         refusalOf(sealed(checkpointHeader(fingerprint, length) + values + text.substr(0, length))),
         {file.string(), "load steps that cannot be read"});
-  for (const std::string& other : {text + "1\n", std::string("99999999999999\n"), std::string("-1\n")})
+  for (const std::string& other :
+       {text + "1\n", std::string("99999999999999\n"), std::string("-1\n"), stepsText({})})
     ::epafi::test::expectSays(refusalOf(sealed(checkpointHeader(fingerprint, other.size()) + values + other)),
                               {"load steps that cannot be read"});
 }
@@ -229,7 +235,7 @@ TEST_F(CheckpointTest, WhatIsNoCheckpointIsRefused) {
   expectSays(refusalOf("\x89HDF\r\n\x1a\n and so on"), {"no checkpoint of Epafi"});
   expectSays(refusalOf(std::string(100000, 'x')), {"no checkpoint of Epafi"});
   expectSays(refusalOf("Epafi checkpoint 1\n"), {"another version"});
-  expectSays(refusalOf("Epafi checkpoint 2\norder middle\n"), {"another order"});
+  expectSays(refusalOf("Epafi checkpoint 3\norder middle\n"), {"another order"});
 }
 
 TEST_F(CheckpointTest, AFileCutOffAnywhereIsRefused) {

@@ -168,6 +168,17 @@ TEST(BoundFeedbackTest, WhereNothingSlipsThereIsNone) {
   EXPECT_EQ(feedbackOf(nodes, true).multiplications, 0);
 }
 
+TEST(BoundFeedbackTest, WithoutADirectionOrTimeItIsNotKnown) {
+  const Nodes nodes(4, 3, 0.5, 3);
+  const qp::QuadraticProgram program = nodes.handedOver(true);
+  const auto map = program.hessian->getDomainMap();
+  const auto x = test::makeVector(map, nodes.x), gradient = test::makeVector(map, nodes.gradient);
+  EXPECT_TRUE(std::isnan(boundFeedback(program, *x, *gradient, Vector(map)).factor));
+  const qp::BoundFeedback stopped = boundFeedback(program, *x, *gradient, *x, [] { return true; });
+  EXPECT_TRUE(std::isnan(stopped.factor));
+  EXPECT_LE(stopped.multiplications, 1);
+}
+
 TEST(BoundFeedbackTest, ItIsTheLargestEigenvalueOfTheDerivative) {
   for (const int components : {2, 3})
     for (const double friction : {0.1, 0.3, 1.0})

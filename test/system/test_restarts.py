@@ -103,6 +103,21 @@ class Restarts(Run):
         file.write_text(bolt_and_block(steps or STEPS), encoding="utf-8")
         return file
 
+    def pushed(self, base, *steps):
+        """A block that slides to and fro on one with so many elements: on its nodes, or on mortars."""
+        moves = {"press": 0.2, "right": 1.0, "left": -0.5}
+        bodies = (body("base", "0, 1, 0, 1, -1, 0", base, support("foot", "bottom", X=0, Y=0, Z=0)) +
+                  body("block", "0, 1, 0, 1, 0, 1", "4, 4, 2", support("push", "top", X=0.01, Y=0.004) + support("weight", "top", Z=-0.01)))
+        file = self.place / f"pushed{base[0]}{len(steps)}" / "pushed.xml"
+        file.parent.mkdir(exist_ok=True)
+        file.write_text('<ParameterList name="Epafi"><ParameterList name="Bodies">' + bodies +
+                        '</ParameterList><ParameterList name="Contact">' + strings(
+                            "joint", First_Body="block", First_Surface="bottom", Second_Body="base", Second_Surface="top",
+                            Friction=0.1) + '</ParameterList><ParameterList name="Steps">' +
+                        "".join(strings(step, Supports=f"block/push = {moves[step]}") for step in steps) +
+                        '</ParameterList></ParameterList>', encoding="utf-8")
+        return file
+
     def assert_same(self, directory, whole, digits=1e-10):
         """With fewer digits a node at the rim of what sticks may stick or slip: areas are of whole nodes."""
         found, expected = ({name: values for name, values in numbers_of(run).items() if digits <= 1e-10 or "Area" not in name}
@@ -198,6 +213,51 @@ class Restarts(Run):
         self.expect(ended, FAILED, 'fields of step "tighten" are not in the files', "bolted.h5")
         with h5py.File(again / "bolted.h5") as fields:
             self.assertEqual([step.attrs["number"] for step in fields["steps"].values()], [2])
+
+    def test_slip_in_files_for_calculix_is_counted_from_the_first_step_on(self):
+        """CSLIP at the end, on the floor and between blocks meshed alike or apart."""
+        def slips(file):
+            text = file.read_text(encoding="utf-8")
+            rows = [line for line in text[text.rindex(" -4  CONTACT"):].splitlines() if line.startswith(" -1")]
+            return numpy.array([[float(row[13 + 12 * k:25 + 12 * k]) for k in range(6)] for row in rows])
+
+        for base in ("4, 4, 2", "3, 5, 2"):
+            with self.subTest(base=base):
+                whole, first, again = (self.place / f"{name}{base[0]}" for name in ("whole", "first", "again"))
+                files = {run: run.with_suffix(".frd") for run in (whole, again)}
+                self.solved(self.pushed(base, "press", "right", "left"), whole, "--frd", files[whole])
+                self.solved(self.pushed(base, "press", "right"), first, ranks=2)
+                self.solved(self.pushed(base, "press", "right", "left"), again, "--frd", files[again], "--restart",
+                            first / "checkpoint.epafi")
+                known, found = slips(files[whole]), slips(files[again])
+                self.assertGreater(numpy.abs(known[:, 1:3]).max(), 5e-4)
+                numpy.testing.assert_allclose(found, known, rtol=1e-5, atol=1e-7)
+
+    def test_another_mesh_is_refused_where_rows_change_too(self):
+        """The scene has the same words: only the file that it names, or one that this merges, has others."""
+        (self.place / "blocks").mkdir()
+        geometry = self.place / "blocks" / "block.geo"
+        surfaces = {"bottom": 5, "top": 6, "right": 2}
+        geometry.write_text('Merge "size.geo";\nSetFactory("OpenCASCADE");\nBox(1) = {2, 0, 0, 1, 1, 1};\n' + "".join(
+            f'Physical Surface("{name}") = {{{number}}};\n' for name, number in surfaces.items()) +
+            'Physical Volume("block") = {1};\nMeshSize{ PointsOf{ Volume{1}; } } = size;\n', encoding="utf-8")
+        for names in (("tighten",), ("tighten", "lock")):
+            file = self.bolted(*names)
+            text = file.read_text(encoding="utf-8")
+            block = text.index('name="block"')
+            text = text[:block] + re.sub('<Parameter name="Box".*?/>\n *<Parameter name="Elements".*?/>', (
+                f'<Parameter name="Mesh" type="string" value="{geometry}"/><Parameter name="Group" type="string" value="block"/>'),
+                text[block:], count=1)
+            text = re.sub('<ParameterList name="Decomposition">.*?</ParameterList>', "", text)
+            file.write_text(text, encoding="utf-8")
+        size, first = self.place / "blocks" / "size.geo", self.place / "first"
+        size.write_text("size = 0.4;\n", encoding="utf-8")
+        self.solved(self.place / "1" / "bolted.xml", first)
+        again = [PROGRAM, self.place / "2" / "bolted.xml", "--restart", first / "checkpoint.epafi"]
+        self.assertEqual(run(*again, ranks=2).returncode, SOLVED)
+        size.write_text("size = 0.3;\n", encoding="utf-8")
+        for ranks in (1, 2):
+            self.expect(run(*again, ranks=ranks), WRONG_INPUT, 'body "block" has another mesh')
 
     def test_other_scenes_and_other_steps_are_refused(self):
         first = self.place / "first"

@@ -370,6 +370,38 @@ class WrittenDecksTest(unittest.TestCase):
         self.assertGreater(works[1], works[0])
         self.assertLessEqual(works[1] - works[0], (2 * found[0]) ** 2 * works[1])
 
+    def test_a_target_is_that_of_all_load_steps_and_of_what_is_asked_for(self):
+        mesh = self.blocks()
+        top, _ = mesh.on("upper", 2, 10)
+        foot, _ = mesh.on("lower", 2, 0)
+        pair = ("*CONTACT PAIR, INTERACTION=rub, TYPE=SURFACE TO SURFACE\nDEPContact, INDContact\n*SURFACE INTERACTION, NAME=rub\n"
+                "*FRICTION\n0.3, 1e9\n")
+
+        def ended(moved, *options):
+            steps = "*END STEP\n".join(f"*STEP\n*STATIC\n*BOUNDARY\nFoot, 1, 3\nTop, 1, 1, {x}\nTop, 2, 2\nTop, 3, 3, {z}\n"
+                                       for x, z in moved)
+            text = freecad(mesh, self.sets(mesh) + f"*NSET, NSET=Foot\n{lines(foot)}*NSET, NSET=Top\n{lines(top)}", pair,
+                           "*ELASTIC\n210000, 0.3", steps)
+            (self.folder / "model.inp").write_text(text, encoding="utf-8")
+            done = subprocess.run([EPAFI, self.folder / "model.inp", "--report", self.folder / "report.xml", *options],
+                                  capture_output=True, text=True, timeout=120, check=False)
+            return done, xml.etree.ElementTree.parse(self.folder / "report.xml")
+
+        def error(report):
+            return float(report.find(".//Parameter[@name='Relative Error']").get("value"))
+
+        aside, both = [(0.05, -0.02)], [(0.05, -0.02), (0, -0.2)]
+        first, last = (error(ended(moved)[1]) for moved in (aside, both))
+        self.assertGreater(first, 1.1 * last)
+        done, _ = ended(both, "--accuracy", str((first + last) / 2))
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn(f"TargetMissed: the estimated error is {100 * first:.6g} % in the worst load step", done.stdout)
+        self.assertEqual(ended(both, "--accuracy", str(1.01 * first))[0].returncode, 0)
+        done, _ = ended(aside, "--accuracy", "0.99", "--set", "Accuracy/Quantity/Kind=force", "--set",
+                        "Accuracy/Quantity/Contact=DEPContact - INDContact")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("TargetMissed: there is no error bar (there is friction", done.stdout)
+
     def test_what_cannot_be_solved_is_named_with_its_line(self):
         mesh = self.blocks()
         text = prepomax(mesh, re.sub("NSET=", "Nset=", self.sets(mesh)), "", "*Step\n*Frequency\n10\n")

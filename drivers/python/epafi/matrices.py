@@ -201,7 +201,11 @@ class Problem:
         self._contact, self._friction = (matrix, numpy.broadcast_to(gaps, count) if len(gaps) == 1 else gaps, self.unknowns), None
         if friction is None and bound is None:
             return
-        nodes = numpy.arange(count) if nodes is None or tangents is None else numpy.ravel(nodes).astype(numpy.int64)
+        if tangents is None and (nodes is not None or numpy.any(slips)):
+            raise _epafi.InputError("nodes and slips belong to tangents of your own; give these too, or leave them out")
+        nodes = numpy.arange(count) if nodes is None else numpy.ravel(nodes)
+        if nodes.dtype.kind not in "iu":
+            raise _epafi.InputError("nodes with friction are numbers of rows: integers")
         if len(numpy.unique(nodes)) < len(nodes) or not ((nodes >= 0) & (nodes < count)).all():
             raise _epafi.InputError(f"nodes with friction are different rows of contact from 0 to {count - 1}")
         of_nodes = [numpy.broadcast_to(numpy.asarray(0.0 if law is None else law, dtype=float), len(nodes)).tolist()

@@ -144,7 +144,7 @@ double spectralRadius(SmallMatrix matrix) {
       for (const double entry : row)
         norm = std::hypot(norm, entry);
     if (!(norm > 0))
-      return 0;
+      return norm; // 0, or NaN
     logarithm += std::ldexp(std::log(norm), -k);
     SmallMatrix square{};
     for (std::size_t i = 0; i < mostVectors; ++i)
@@ -186,13 +186,13 @@ double amplification(const SmallMatrix& matrix, std::size_t size) {
 
 /// From a direction.
 /// \param share       see FaceResponse::respond
-/// \param numVectors  at least \param numSettled  estimates that hardly differ from those before, in the end
+/// \param numVectors  at least  \param numSettled  estimates that hardly differ from those before, in the end
 BoundFeedback arnoldi(FaceResponse& face, const Vector& direction, double share, std::size_t numVectors,
-                      int numSettled) {
+                      int numSettled, const std::function<bool()>& isToStop) {
   constexpr double hardly = 0.05, roundOff = 1e-20; // of 1 − q, of squares
   std::vector<Vector> basis, images;                // orthonormal in A
   SmallMatrix projected{};                          // T′
-  BoundFeedback found;
+  BoundFeedback found{.factor = std::numeric_limits<double>::quiet_NaN()};
   int settled = 0;
   face.start(direction);
   for (std::size_t size = 0; size <= mostVectors; ++size) {
@@ -216,6 +216,10 @@ BoundFeedback arnoldi(FaceResponse& face, const Vector& direction, double share,
       projected[size][size - 1] = std::sqrt(squared);
     face.moved().scale(1 / std::sqrt(squared));
     face.image().scale(1 / std::sqrt(squared));
+    if (isToStop()) {
+      found.factor = std::numeric_limits<double>::quiet_NaN();
+      break;
+    }
     basis.emplace_back(face.moved(), Teuchos::Copy);
     images.emplace_back(face.image(), Teuchos::Copy);
     face.respond(share);
@@ -227,13 +231,13 @@ BoundFeedback arnoldi(FaceResponse& face, const Vector& direction, double share,
 } // namespace
 
 BoundFeedback boundFeedback(const QuadraticProgram& program, const Vector& x, const Vector& gradient,
-                            const Vector& direction) {
+                            const Vector& direction, const std::function<bool()>& isToStop) {
   constexpr double weak = 0.1, rough = 0.1, fine = 0.01;
   FaceResponse face(program, x, gradient);
   if (!face.follows())
     return {};
-  const BoundFeedback found = arnoldi(face, direction, rough, 3, 0);
-  return found.factor < weak ? found : arnoldi(face, direction, fine, 4, 2);
+  const BoundFeedback found = arnoldi(face, direction, rough, 3, 0, isToStop);
+  return found.factor >= weak ? arnoldi(face, direction, fine, 4, 2, isToStop) : found;
 }
 
 } // namespace epafi::qp

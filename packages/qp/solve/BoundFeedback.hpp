@@ -4,6 +4,8 @@
 
 #include "epafi/qp/solve/QuadraticProgram.hpp"
 
+#include <functional>
+
 namespace epafi::qp {
 
 /// With Ω(x) (QuadraticProgram::setAt) let T(y) be the solution within the given Ω(y), so that x = T(x). Near
@@ -12,7 +14,7 @@ namespace epafi::qp {
 /// least. A point x + e′ whose distance from its T is e has e′ = (I − T′)⁻¹e, to first order; where q ≥ 1
 /// there may be other solutions.
 struct BoundFeedback {
-  double factor = 0;        ///< q, about; 0 where no bound moves
+  double factor = 0;        ///< q, about; 0 where no bound moves; NaN: not known
   double amplification = 1; ///< ‖(I − T′)⁻¹e‖_A / ‖e‖_A, about
   int multiplications = 0;  ///< products with A
 };
@@ -22,9 +24,12 @@ struct BoundFeedback {
 /// \param program    whose setAt is set and whose equality, if there is one, is a ReplicatedEquality
 /// \param x          its solution, what is at bounds exactly so
 /// \param gradient   Ax − b + Bᵀμ there
-/// \param direction  e, of which what the face may move counts, of any length
+/// \param direction  e, of which what the face may move counts, of any length; what no power of T′ makes of
+/// it is not seen, such as an eigenvector across a symmetry that e has
+/// \param isToStop   asked before each vector, the same on all ranks: then the factor is not known
 /// Collective.
-BoundFeedback boundFeedback(const QuadraticProgram& program, const Vector& x, const Vector& gradient,
-                            const Vector& direction);
+BoundFeedback boundFeedback(
+    const QuadraticProgram& program, const Vector& x, const Vector& gradient, const Vector& direction,
+    const std::function<bool()>& isToStop = [] { return false; });
 
 } // namespace epafi::qp

@@ -34,7 +34,8 @@ struct ContactSolution {
   double algebraicError = 0;
   /// With Coulomb's friction q, by which errors of its bounds shrink (qp/solve/BoundFeedback.hpp), and the
   /// products with F that it took; algebraicError is that with the bounds given, times what they make of it,
-  /// 1/(1 − q) at least, or NaN where q ≥ 1.
+  /// 1/(1 − q) at least, ∞ where q ≥ 1. NaN, and so is algebraicError: it was not measured, as where the
+  /// iteration has not ended at a solution.
   double frictionFeedback = 0;
   int feedbackMultiplications = 0;
   bool isEstimated = false; ///< ErrorBalance::estimate was last asked about this solution

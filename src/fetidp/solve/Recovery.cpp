@@ -111,8 +111,9 @@ void assess(const DualProblem& dual, const ProblemData& data, const Vector& size
   };
   solution.relativeProjectedGradient = relative(std::sqrt(sums[0].value()), found.reference);
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * scale;
-  solution.roundOff =
-      relative(rounding * std::sqrt(static_cast<double>(gradient.getGlobalLength())), found.reference);
+  constexpr double most = 1e-4; // where rounding makes more of it, nothing is solved
+  solution.roundOff = std::min(
+      most, relative(rounding * std::sqrt(static_cast<double>(gradient.getGlobalLength())), found.reference));
   solution.feasibility = relative(violation, scale);
   solution.complementarity = relative(std::abs(sums[1].value()), std::abs(solution.energy));
   solution.equilibrium = found.equilibrium;
