@@ -397,8 +397,8 @@ class WrittenDecksTest(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn(f"TargetMissed: the estimated error is {100 * first:.6g} % in the worst load step", done.stdout)
         self.assertEqual(ended(both, "--accuracy", str(1.01 * first))[0].returncode, 0)
-        done, _ = ended(aside, "--accuracy", "0.99", "--set", "Accuracy/Quantity/Kind=force", "--set",
-                        "Accuracy/Quantity/Contact=DEPContact - INDContact")
+        done, _ = ended(aside, "--dat", self.folder / "model.dat", "--accuracy", "0.99", "--set", "Accuracy/Quantity/Kind=force", "--set",
+                        "Accuracy/Quantity/Contact=DEPCONTACT - INDCONTACT")
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn("TargetMissed: there is no error bar (there is friction", done.stdout)
 
