@@ -240,7 +240,8 @@ void RunFiles::preparePrints(simulation::SceneRun& run, output::FileSet& files) 
   attempt(options_.dat, [&] {
     const std::size_t numSteps = std::max<std::size_t>(1, run.result.steps.size());
     if (numSteps < numEarlier_ + 2)
-      collectively(*comm_, [&] { prints_ = DeckPrints(comm_->getRank() == 0 ? options_.scene : "", earlierSlip_); });
+      collectively(*comm_,
+                   [&] { prints_ = DeckPrints(comm_->getRank() == 0 ? options_.scene : "", earlierSlip_); });
     prints_.add(run, numSteps - 1);
     files.write(options_.dat, [&] { return prints_.text(); });
     return line("dat", options_.dat);

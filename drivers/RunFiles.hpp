@@ -65,13 +65,13 @@ private:
   double output_ = 0;          ///< seconds that all before it took
   double lastStage_;           ///< wall time at which its files were there
   bool hasStage_ = false, isOfThisStage_ = false, hasComplained_ = false;
-  bool hasFields_ = false;               ///< those of the stage at hand are written
-  std::vector<output::FieldStep> steps_; ///< up to the one at hand, but those whose fields are lost
-  std::filesystem::path older_;          ///< HDF5 file of the steps of an earlier run; empty: none
-  std::size_t numEarlier_ = 0;           ///< load steps that an earlier run has done
+  bool hasFields_ = false;                        ///< those of the stage at hand are written
+  std::vector<output::FieldStep> steps_;          ///< up to the one at hand, but those whose fields are lost
+  std::filesystem::path older_;                   ///< HDF5 file of the steps of an earlier run; empty: none
+  std::size_t numEarlier_ = 0;                    ///< load steps that an earlier run has done
   std::vector<simulation::NodeSlip> earlierSlip_; ///< what friction has slipped in them
-  output::FrdFile frd_;                  ///< of the mesh at hand, up to the step at hand
-  DeckPrints prints_{""};                ///< likewise
+  output::FrdFile frd_;                           ///< of the mesh at hand, up to the step at hand
+  DeckPrints prints_{""};                         ///< likewise
   std::string lines_;
   std::vector<std::string> failures_;
   std::vector<std::string> lost_; ///< likewise, of fields of steps that no later stage makes up for

@@ -282,6 +282,10 @@ void describeResults(std::ostream& text, const RunResult& result) {
   });
   describeEach(text, result.preloads, "bolt",
                [&](const simulation::PreloadResult& preload) { describePreload(text, preload); });
+  for (const simulation::HoldResult& hold : result.holds)
+    text << "  held        " << hold.motion << ": held at (" << rounded(hold.place[0]) << ", "
+         << rounded(hold.place[1]) << ", " << rounded(hold.place[2]) << "), which takes a force of "
+         << rounded(lengthOf(hold.force)) << '\n';
 }
 
 /// Components that are round-off beside the largest force of a support are 0.

@@ -189,11 +189,12 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
       models.push_back(makeModel(scene.bodies[b], *result.bodies[b].mesh));
   });
   requireNeedsMet(models, *comm);
+  const std::vector<GlobalOrdinal> held = heldNodes(scene, result.bodies, *comm);
   collectively(*comm, [&] {
     SceneContacts all = layoutContacts(scene, result.bodies, supportedNodes(models));
     result.contacts = std::move(all.contacts);
     result.ties = std::move(all.ties);
-    result.equations = equationsOf(scene, models);
+    result.equations = equationsOf(scene, models, held);
     for (const contact::ContactLayout& section : all.sections)
       result.sections.push_back(addSection(scene, section, models, result.equations));
   });

@@ -1,10 +1,13 @@
 #include "epafi/model/SceneEquations.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/mesh/MeshPart.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -88,8 +91,33 @@ bool isFixed(const contact::Equation& equation, const std::vector<std::unique_pt
   return true;
 }
 
+std::vector<GlobalOrdinal> heldNodes(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
+                                     const Comm& comm) {
+  std::vector<GlobalOrdinal> nodes;
+  for (const scene::Hold& hold : scene.holds) {
+    const mesh::Mesh& mesh = *bodies[hold.body].mesh;
+    const mesh::MeshPart* const piece = mesh.part();
+    const GlobalOrdinal number = piece != nullptr ? std::ssize(piece->nodes()) : mesh.numNodes();
+    double least = std::numeric_limits<double>::infinity();
+    GlobalOrdinal nearest = mesh.numNodes();
+    for (GlobalOrdinal k = 0; k < number; ++k) {
+      const GlobalOrdinal node = piece != nullptr ? piece->nodes()[k] : k;
+      const Point at = mesh.point(node);
+      const double distance = std::hypot(at[0] - hold.place[0], at[1] - hold.place[1], at[2] - hold.place[2]);
+      if (distance < least) {
+        least = distance;
+        nearest = node;
+      }
+    }
+    const bool isNearest = least <= minOverRanks(comm, least);
+    nodes.push_back(minOverRanks(comm, isNearest ? nearest : mesh.numNodes()));
+  }
+  return nodes;
+}
+
 std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
-                                           const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
+                                           const std::vector<std::unique_ptr<fem::BodyModel>>& models,
+                                           const std::vector<GlobalOrdinal>& held) {
   std::vector<contact::Equation> equations;
   EquationNodes nodes(scene, models);
   for (const scene::Equation& each : scene.equations) {
@@ -110,6 +138,13 @@ std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
       throw InputError("the terms of the equation " + inQuotes(each.name) + " cancel; remove it");
     if (!isFixed(equation, models))
       equations.push_back(scaled(std::move(equation)));
+  }
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const scene::Hold& hold = scene.holds[k];
+    contact::Equation equation{
+        {{hold.body, held[k], Eigen::Vector3d(hold.direction.data())}}, 0, "hold: " + hold.motion, 0};
+    if (!isFixed(equation, models))
+      equations.push_back(std::move(equation));
   }
   return equations;
 }

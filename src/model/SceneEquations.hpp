@@ -4,6 +4,7 @@
 
 #include "epafi/contact/ContactMatrix.hpp"
 #include "epafi/fem/BodyModel.hpp"
+#include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
 
 #include <memory>
@@ -11,11 +12,17 @@
 
 namespace epafi::model {
 
-/// Those that supports do not fix altogether. \throws InputError if a term's nodes are not there, or not one;
+/// Node of each of Scene::holds. Collective.
+std::vector<GlobalOrdinal> heldNodes(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
+                                     const Comm& comm);
+
+/// Those of the scene, and those of its holds, that supports do not fix altogether. \throws InputError if a term's nodes are not there, or not one;
 /// SolvabilityError if supports hold all of an equation's displacements, at values that contradict it. Not
 /// collective (every rank finds the same).
+/// \param held  heldNodes()
 std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
-                                           const std::vector<std::unique_ptr<fem::BodyModel>>& models);
+                                           const std::vector<std::unique_ptr<fem::BodyModel>>& models,
+                                           const std::vector<GlobalOrdinal>& held);
 
 /// Whether supports prescribe all of an equation. \throws SolvabilityError if they contradict one that is no
 /// spring

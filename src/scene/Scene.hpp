@@ -90,11 +90,21 @@ struct Equation {
   double stiffness = 0; ///< of a spring, whose force is so many times what the sum is off; 0: it is not off
 };
 
+/// Holds a body at a node where it would be free to move: what it takes is a force there.
+struct Hold {
+  int body = 0;
+  Point place{};       ///< of which the nearest node is meant
+  Vector3 direction{}; ///< of length 1
+  std::string motion;  ///< in words
+};
+
 struct Scene {
   std::string title;
   std::vector<Body> bodies;
   std::vector<SurfaceContact> contacts;
   std::vector<Equation> equations{};
+  bool holdsFreeMotions = false; ///< rather than refuse them
+  std::vector<Hold> holds{};     ///< found by that
 };
 
 } // namespace epafi::scene

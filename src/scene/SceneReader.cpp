@@ -29,6 +29,7 @@ Scene readScene(const ParameterList& list, const std::string& where) {
 
   Scene scene;
   scene.title = complete.get<std::string>("Title");
+  scene.holdsFreeMotions = complete.get<std::string>("Free Motions") == "hold";
   for (const std::string& name : ListReader(complete.sublist("Bodies"), where, "Bodies").names())
     inherit(complete.sublist("Bodies").sublist(name).sublist("Decomposition"),
             complete.sublist("Decomposition"));

@@ -296,6 +296,12 @@ void describeStep(ParameterList& steps) {
 ParameterList sceneSchema() {
   ParameterList list("Epafi");
   list.set("Title", "", "What the scene shows, in a few words.");
+  addChoice(
+      list, "Free Motions", "refuse",
+      "What becomes of motions of bodies that no support and no smooth surface in contact hinders, as of "
+      "a pin about its axis. refuse: they are named, and nothing is solved. hold: each is held at one "
+      "node, and the force that this takes is told.",
+      {"refuse", "hold"});
   describeBody(list.sublist("Bodies", false,
                             "The bodies, at least one. Lengths, forces and moduli are in one consistent "
                             "system of units of your choice "

@@ -307,6 +307,11 @@ ParameterList reportOf(const RunResult& result) {
   enterSupports(result.supports, list);
   for (const PreloadResult& preload : result.preloads)
     enterPreload(preload, list.sublist("Preload").sublist(preload.name));
+  for (const HoldResult& hold : result.holds)
+    list.sublist("Holds")
+        .sublist(hold.motion)
+        .set("Force", arrayOf(hold.force))
+        .set("Place", arrayOf(hold.place));
   for (const BodyResult& body : result.bodies)
     if (body.isElastic)
       list.sublist("Body")

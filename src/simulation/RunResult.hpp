@@ -7,6 +7,7 @@
 #include "epafi/accuracy/AccuracyLoop.hpp"
 #include "epafi/accuracy/EnergyBound.hpp"
 #include "epafi/simulation/Evaluation.hpp"
+#include "epafi/simulation/FreeMotionHolds.hpp"
 #include "epafi/simulation/JointResults.hpp"
 #include "epafi/simulation/PreloadResults.hpp"
 #include "epafi/simulation/Quantity.hpp"
@@ -112,6 +113,7 @@ struct RunResult {
   std::vector<TieResult> ties;
   std::vector<SupportResult> supports;
   std::vector<PreloadResult> preloads;
+  std::vector<HoldResult> holds; ///< of motions that would be free
   std::vector<StepResult> steps; ///< in their order, the last one too; none where the scene has none
   std::optional<TargetResult> target;
   RunTimes times;
@@ -132,7 +134,7 @@ void requireAllContacts(RunResult& result);
 std::string statusOf(const RunResult& result);
 
 /// The report of a run: the lists Epafi, Problem, Algorithm, Plan, Iterations, Accuracy, Start, Quantity,
-/// Body, Contact, Tied, Support, Preload, Levels, Time, Memory and Status, as far as there is something to
+/// Body, Contact, Tied, Support, Preload, Holds, Levels, Time, Memory and Status, as far as there is something to
 /// say.
 Teuchos::ParameterList reportOf(const RunResult& result);
 

@@ -236,8 +236,10 @@ void evaluateRun(SceneRun& run) {
   result.missedContacts = overlapsBeyondDistance(solved, unseen);
   requireAllContacts(result);
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
-  for (const std::string& doubt : {largeDeformations(result, Deformation::doubtful),
-                                   strongFeedback(result.feedback), unseen, roundedGradient(run)})
+  result.holds = holdResults(solved);
+  for (const std::string& doubt :
+       {largeDeformations(result, Deformation::doubtful), strongFeedback(result.feedback), unseen,
+        roundedGradient(run), loadedHolds(result.holds, result.contactForce)})
     if (!doubt.empty())
       result.doubts += (result.doubts.empty() ? "" : ". ") + doubt;
 }
@@ -315,6 +317,8 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   run.decomposition = std::make_unique<model::Decomposition>(
       options.bodies == nullptr ? model::decompose(scene, comm, meshes)
                                 : model::decompose(scene, std::move(*options.bodies), comm));
+  if (scene.holdsFreeMotions)
+    holdFreeMotions(run.scene, run.decomposition);
   if (options.changeData)
     options.changeData(*run.decomposition);
   std::optional<QuantityOfScene> quantity;

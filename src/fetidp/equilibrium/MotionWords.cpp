@@ -18,7 +18,7 @@ using decomposition::DecomposedProblem;
 using Eigen::Vector3d;
 
 /// Shares of a motion that are not worth a word.
-constexpr double small = 1e-6;
+constexpr double small = 1e-6, notWorthAWord = 1e-4; // of one, of a combination of several
 
 /// Motions (columns) as lengths, body after body: displacement of its centre, then its rotation times its
 /// size; of a body without known motions the modes' amplitudes.
@@ -72,12 +72,14 @@ std::string verbOf(const Body& body, const Eigen::VectorXd& coordinates, int com
 }
 
 struct Moves {
-  std::vector<const Body*> bodies; ///< in the order of the problem
-  std::vector<std::string> verbs;  ///< of each
+  std::vector<const Body*> bodies;          ///< in the order of the problem
+  std::vector<std::string> verbs;           ///< of each
+  std::vector<Eigen::VectorXd> coordinates; ///< likewise
 
   [[nodiscard]] bool areAlike() const {
     return std::adjacent_find(verbs.begin(), verbs.end(), std::not_equal_to<>()) == verbs.end();
   }
+  [[nodiscard]] std::string verb() const { return areAlike() ? verbs.at(0) : "move together"; } ///< of all
 };
 
 /// Of the bodies that move by more than `share` of what moves most.
@@ -91,6 +93,7 @@ Moves movesOf(const DecomposedProblem& problem, const Eigen::VectorXd& coordinat
     if (own.norm() > share * coordinates.norm()) {
       moves.bodies.push_back(&body);
       moves.verbs.push_back(verbOf(body, own, problem.components));
+      moves.coordinates.push_back(own);
     }
   }
   return moves;
@@ -120,6 +123,17 @@ Eigen::MatrixXd reduced(Eigen::MatrixXd rows, double accuracy) {
   return rows.topRows(done);
 }
 
+/// The combinations with the fewest coordinates.
+std::vector<Eigen::VectorXd> simplest(const DecomposedProblem& problem, const Eigen::MatrixXd& motions,
+                                      double accuracy) {
+  const Eigen::MatrixXd rows =
+      reduced(coordinatesOf(problem, motions).colwise().normalized().transpose(), accuracy);
+  std::vector<Eigen::VectorXd> all;
+  for (const auto& row : rows.rowwise())
+    all.emplace_back((row.array().abs() < accuracy * row.cwiseAbs().maxCoeff()).select(0.0, row.array()));
+  return all;
+}
+
 } // namespace
 
 MotionWords wordsOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
@@ -135,19 +149,29 @@ MotionWords wordsOf(const DecomposedProblem& problem, const Eigen::VectorXd& mot
 }
 
 std::string abilitiesOf(const DecomposedProblem& problem, const Eigen::MatrixXd& motions, double accuracy) {
-  // The simplest combinations are those with the fewest coordinates.
-  Eigen::MatrixXd rows =
-      reduced(coordinatesOf(problem, motions).colwise().normalized().transpose(), accuracy);
-  for (auto row : rows.rowwise())
-    row = (row.array().abs() < accuracy * row.cwiseAbs().maxCoeff()).select(0.0, row.array()).matrix().eval();
   std::map<std::vector<const Body*>, std::vector<std::string>> verbs; // of the bodies that do it together
-  for (Eigen::Index m = 0; m < rows.rows(); ++m) {
-    const Moves moves = movesOf(problem, rows.row(m).transpose(), 1e-4);
-    verbs[moves.bodies].push_back(moves.areAlike() ? moves.verbs.at(0) : "move together");
+  for (const Eigen::VectorXd& motion : simplest(problem, motions, accuracy)) {
+    const Moves moves = movesOf(problem, motion, notWorthAWord);
+    verbs[moves.bodies].push_back(moves.verb());
   }
   std::string all;
   for (const auto& [who, what] : verbs)
     all += (all.empty() ? "" : "; ") + namesOf(who) + " can " + listed(what);
+  return all;
+}
+
+std::vector<FreeMotion> freeMotionsOf(const DecomposedProblem& problem, const Eigen::MatrixXd& motions,
+                                      double accuracy) {
+  std::vector<FreeMotion> all;
+  for (const Eigen::VectorXd& coordinates : simplest(problem, motions, accuracy)) {
+    const Moves moves = movesOf(problem, coordinates, notWorthAWord);
+    FreeMotion motion{{}, namesOf(moves.bodies) + " can " + moves.verb()};
+    for (std::size_t k = 0; k < moves.bodies.size(); ++k)
+      if (const auto& known = moves.bodies[k]->motions)
+        motion.bodies.push_back({static_cast<int>(moves.bodies[k] - problem.bodies.data()), known->centre,
+                                 moves.coordinates[k].head(3), moves.coordinates[k].tail(3) / known->size});
+    all.push_back(std::move(motion));
+  }
   return all;
 }
 

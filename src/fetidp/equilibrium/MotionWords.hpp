@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <string>
+#include <vector>
 
 namespace epafi::fetidp {
 
@@ -25,6 +26,20 @@ MotionWords wordsOf(const decomposition::DecomposedProblem& problem, const Eigen
 /// \param accuracy  shares of a motion below this are 0
 std::string abilitiesOf(const decomposition::DecomposedProblem& problem, const Eigen::MatrixXd& motions,
                         double accuracy = 0);
+
+/// One of those simplest motions.
+struct FreeMotion {
+  struct OfBody {
+    int body;                            ///< index into DecomposedProblem::bodies
+    Eigen::Vector3d centre, slide, turn; ///< a point x moves by slide + turn × (x − centre)
+  };
+  std::vector<OfBody> bodies; ///< that take part; none where a body's modes are not known as motions
+  std::string words;          ///< "the floating body 'cube' can slide along x"
+};
+
+/// All that abilitiesOf() speaks of, in as many motions as there are columns.
+std::vector<FreeMotion> freeMotionsOf(const decomposition::DecomposedProblem& problem,
+                                      const Eigen::MatrixXd& motions, double accuracy = 0);
 
 /// That of motions along surfaces with facets.
 inline constexpr double facetNoise = 0.05;

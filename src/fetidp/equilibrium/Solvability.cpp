@@ -29,11 +29,17 @@ using Kind = SolvabilityError::Kind;
 
 /// `parts` one after the other, numbers as streams write them.
 template <class... Parts>
-[[noreturn]] void refuse(Kind kind, const Parts&... parts) {
+std::string sentence(Kind kind, const Parts&... parts) {
   std::ostringstream text;
   text << (kind == Kind::noSolution ? "no solution: " : "not unique: ");
   (text << ... << parts);
-  throw SolvabilityError(kind, text.str());
+  return text.str();
+}
+
+/// Refuses with such a sentence.
+template <class... Parts>
+[[noreturn]] void refuse(Kind kind, const Parts&... parts) {
+  throw SolvabilityError(kind, sentence(kind, parts...));
 }
 
 /// `before` and what the motion is, if that is known.
@@ -62,6 +68,10 @@ struct RigidBalance {
   [[nodiscard]] MotionWords words(const Eigen::VectorXd& motion) const {
     return wordsOf(problem, motion.cwiseQuotient(scales.motions()));
   }
+  /// As they are, of motions that are measured as the others are.
+  [[nodiscard]] Eigen::MatrixXd unmeasured(const Eigen::MatrixXd& motions) const {
+    return scales.motions().cwiseInverse().asDiagonal() * motions;
+  }
 };
 
 /// Motions α that nothing hinders in either direction, G̃ᵀα = 0, in columns of length 1.
@@ -82,29 +92,28 @@ void refuseLoadedMotion(const RigidBalance& balance, const Eigen::MatrixXd& free
           .all())
     return;
   const MotionWords words = balance.words(motion);
-  refuse(Kind::noSolution, words.bodies,
-         " can move without meeting a support or a contact, and the load moves it (resultant ", motion.norm(),
-         along(words, " to "), "); add a support or a contact pair");
+  throw FreeMotionError(
+      Kind::noSolution,
+      sentence(Kind::noSolution, words.bodies,
+               " can move without meeting a support or a contact, and the load moves it (resultant ",
+               motion.norm(), along(words, " to "), "); add a support or a contact pair"),
+      freeMotionsOf(balance.problem, balance.unmeasured(free)));
 }
 
-/// Even then they are undetermined.
-void refuseFreeMotion(const RigidBalance& balance, const Eigen::MatrixXd& free) {
-  if (free.cols() > 0)
-    refuse(Kind::notUnique,
-           abilitiesOf(balance.problem, balance.scales.motions().cwiseInverse().asDiagonal() * free),
-           " without meeting a support or a contact; add a support or a contact pair");
+/// Motions that are free even so. \param why  what follows on what bodies can do
+void refuseMotions(const RigidBalance& balance, const Eigen::MatrixXd& free, double accuracy,
+                   const char* why) {
+  if (free.cols() == 0)
+    return;
+  const Eigen::MatrixXd motions = balance.unmeasured(free);
+  throw FreeMotionError(Kind::notUnique,
+                        sentence(Kind::notUnique, abilitiesOf(balance.problem, motions, accuracy), why),
+                        freeMotionsOf(balance.problem, motions, accuracy));
 }
 
-/// The same of motions that nothing but the facets of smooth surfaces hinders: where they lead to is the
-/// mesh's.
-void refuseSlippingMotion(const RigidBalance& balance) {
-  const Eigen::MatrixXd slipping =
-      slippingMotions(balance.problem, balance.rows, balance.scales.motions(), [](int) { return true; });
-  if (slipping.cols() > 0)
-    refuse(Kind::notUnique,
-           abilitiesOf(balance.problem, balance.scales.motions().cwiseInverse().asDiagonal() * slipping,
-                       facetNoise),
-           facetsAlone);
+/// Those that nothing but the facets of smooth surfaces hinders: where they lead to is the mesh's. Collective.
+Eigen::MatrixXd slippingMotionsOf(const RigidBalance& balance) {
+  return slippingMotions(balance.problem, balance.rows, balance.scales.motions(), [](int) { return true; });
 }
 
 /// Is ẽ in the cone of the directions? With each body's modes measured by the loads on it and the directions
@@ -234,8 +243,8 @@ void requireUniqueSolution(const DecomposedProblem& problem, const ProblemData& 
            " along a motion that no contact hinders", along(balance.words(motion), ": "),
            "); turn the load or add a support");
   }
-  refuseFreeMotion(balance, free);
-  refuseSlippingMotion(balance);
+  refuseMotions(balance, free, 0, " without meeting a support or a contact; add a support or a contact pair");
+  refuseMotions(balance, slippingMotionsOf(balance), facetNoise, facetsAlone);
 
   if (const auto loose = cone.looseMotion())
     refuse(Kind::notUnique, "the load does not press ", balance.words(loose->cwiseProduct(cone.unit)).bodies,
