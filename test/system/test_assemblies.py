@@ -3,6 +3,7 @@
 
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -108,6 +109,18 @@ class Assemblies(unittest.TestCase):
         self.assertAlmostEqual(abs(z), 10000, delta=0.5)  # facets lack some of the ends
         self.assertLess(max(abs(x), abs(y)), 5)  # the guide takes it
         self.assertLess(found["Force Imbalance"][0], 1e-8 * 10000)
+
+    def test_a_pin_that_nothing_guides_is_held_against_turning_and_sliding_if_asked(self):
+        free = re.sub(".*pin/plane.*xy.*\\n", "", PIN)
+        refused = run(step("pin_in_lug"), self.write(free))
+        self.assertEqual(refused.returncode, NOT_SOLVABLE, refused.stdout + refused.stderr)
+        for ranks in (1, 2):
+            found = self.contact("pin_in_lug", free, "lug - pin", ranks, "--set", "Free Motions=hold")
+            self.assertAlmostEqual(abs(found["Resultant"][2]), 10000, delta=0.5)
+            holds = xml.etree.ElementTree.parse(self.place / "report.xml").findall("ParameterList[@name='Holds']/ParameterList")
+            self.assertEqual([hold.get("name").partition(" can ")[2][:25] for hold in holds], ["slide along y", "turn about the axis throu"])
+            for force in (hold.find("Parameter[@name='Force']") for hold in holds):
+                self.assertLess(max(abs(float(part)) for part in force.get("value").strip("{}").split(",")), 1)
 
     def test_a_shrink_fit_has_lames_pressure(self):
         found = self.contact("shrink_fit", SHRINK_FIT, "ring - shaft")
