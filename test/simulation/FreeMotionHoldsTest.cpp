@@ -29,7 +29,7 @@ scene::Scene stack(int dimension, int number, const Vector3& force) {
                                        test::cutByMetis(k + 1)));
     scene.bodies.back().loads = {test::weight(force)};
   }
-  const std::string top = dimension == 3 ? "top" : "upper", bottom = dimension == 3 ? "bottom" : "lower";
+  const std::string top = "top", bottom = "bottom";
   const Vector3 up = dimension == 3 ? Vector3{0, 0, 1} : Vector3{0, 1, 0};
   scene.contacts = {test::onPlane("floor", 0, bottom, {0, 0, 0}, up)};
   for (int k = 1; k < number; ++k)
