@@ -1,5 +1,7 @@
 #include "epafi/base/Maps.hpp"
 
+#include "epafi/base/SortUnique.hpp"
+
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
@@ -23,8 +25,7 @@ RCP<const Map> mapInOrder(const std::vector<GlobalOrdinal>& indices, const RCP<c
 std::vector<int> ownersOf(const Map& map, std::span<const GlobalOrdinal> indices) {
   std::vector<GlobalOrdinal> numbers(indices.begin(),
                                      indices.end()); // each once: Tpetra answers no question twice
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  sortUnique(numbers);
   std::vector<int> owners(numbers.size()), ranks;
   map.getRemoteIndexList(Teuchos::arrayViewFromVector(numbers), Teuchos::arrayViewFromVector(owners));
   ranks.reserve(indices.size());

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace epafi::contact {
@@ -79,6 +80,17 @@ bool isSpringless(const ContactTerms& contact, const RowAreas& areas, const Surf
          areas.of(i) <= roundOff * first.spacings[i] * first.spacings[i];
 }
 
+/// Of two surfaces: no row as yet, and the areas of nodes.
+std::pair<ContactLayout, RowAreas> begun(const ContactTerms& contact, const SurfaceNodes& first,
+                                         const SurfaceNodes& second, const FacingNodes& pairs) {
+  if (!contact.coincide)
+    requireMatch(contact, first, second, pairs);
+  ContactLayout layout;
+  layout.name = contact.name;
+  return {std::move(layout),
+          areasOf(contact, first, [&](std::size_t f, std::size_t) { return pairs.isCommon[f] != 0; })};
+}
+
 } // namespace
 
 ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& first, const Obstacle& obstacle) {
@@ -125,12 +137,7 @@ ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& firs
 
 ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
                           const FacingNodes& pairs) {
-  if (!contact.coincide)
-    requireMatch(contact, first, second, pairs);
-  ContactLayout layout;
-  layout.name = contact.name;
-  const RowAreas areas =
-      areasOf(contact, first, [&](std::size_t f, std::size_t) { return pairs.isCommon[f] != 0; });
+  auto [layout, areas] = begun(contact, first, second, pairs);
   for (std::size_t i = 0; i < pairs.partner.size(); ++i) {
     const std::size_t j = pairs.partner[i];
     if (j == FacingNodes::alone || isSpringless(contact, areas, first, i))
@@ -153,12 +160,7 @@ ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first
 
 ContactLayout tieSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
                          const FacingNodes& pairs, const Eigen::Matrix3d& axes) {
-  if (!contact.coincide)
-    requireMatch(contact, first, second, pairs);
-  ContactLayout layout;
-  layout.name = contact.name;
-  const RowAreas areas =
-      areasOf(contact, first, [&](std::size_t f, std::size_t) { return pairs.isCommon[f] != 0; });
+  auto [layout, areas] = begun(contact, first, second, pairs);
   for (int c = 0; c < contact.components; ++c)
     for (std::size_t i = 0; i < pairs.partner.size(); ++i) {
       const std::size_t j = pairs.partner[i];

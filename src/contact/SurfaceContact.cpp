@@ -1,6 +1,7 @@
 #include "epafi/contact/SurfaceContact.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/contact/RigidLinks.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -15,8 +16,7 @@ namespace {
 CoupledSurfaces asMatrix(const ContactTerms& terms, ContactLayout layout, const RCP<const Comm>& comm) {
   layout.firstBody = layout.secondBody = 0; // nodes are numbered through all bodies
   std::vector<GlobalOrdinal> nodes = layout.firstNodes;
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sortUnique(nodes);
   NodeUnknowns unknowns;
   unknowns.components = terms.components;
   unknowns.firstNode = {0};

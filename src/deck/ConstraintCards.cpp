@@ -68,12 +68,7 @@ void readAmplitude(Reading& reading, const Card& card) {
   if (!definition.empty() && definition != "TABULAR")
     card.refuse("DEFINITION=" + shortened(definition) +
                 " is not read; write it as a table of times and factors");
-  const auto [place, isNew] = reading.deck.amplitudes.try_emplace(name);
-  if (!isNew)
-    card.refuse("\"" + shortened(name) + "\" is defined in " + text(place->second.place) +
-                ", too; give them different names");
-  Amplitude& amplitude = place->second;
-  amplitude.place = card.place;
+  Amplitude& amplitude = defined(card, name, reading.deck.amplitudes);
   amplitude.isOfTotalTime = card.value("TIME") == "TOTALTIME";
   const double time0 = card.number("SHIFTX").value_or(0), factor0 = card.number("SHIFTY").value_or(0);
   if (card.has("USER")) {

@@ -51,13 +51,7 @@ double notNegative(const Fields& fields, int field, const char* what) {
 } // namespace
 
 void readInteraction(Reading& reading, const Card& card) {
-  const std::string name = card.required("NAME");
-  const auto [place, isNew] = reading.deck.interactions.try_emplace(name);
-  if (!isNew)
-    card.refuse("\"" + shortened(name) + "\" is defined in " + text(place->second.place) +
-                ", too; give them different names");
-  place->second.place = card.place;
-  reading.interaction = &place->second;
+  reading.interaction = &defined(card, card.required("NAME"), reading.deck.interactions);
 }
 
 void readSurfaceBehavior(Reading& reading, const Card& card) {

@@ -1,6 +1,7 @@
 #include "epafi/deck/DeckBodies.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/SortUnique.hpp"
 
 #include <algorithm>
 #include <map>
@@ -164,8 +165,7 @@ void DeckBodies::addBodies(const Deck& deck, const std::vector<const Elements*>&
   }
   for (const auto& [lowest, place] : bodyAt) {
     Numbers& nodes = bodies_[place].nodes;
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sortUnique(nodes);
   }
 }
 

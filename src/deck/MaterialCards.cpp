@@ -58,13 +58,7 @@ std::vector<double> ofEngineeringConstants(const Card& card, const std::vector<d
 } // namespace
 
 void readMaterial(Reading& reading, const Card& card) {
-  const std::string name = card.required("NAME");
-  const auto [place, isNew] = reading.deck.materials.try_emplace(name);
-  if (!isNew)
-    card.refuse("\"" + shortened(name) + "\" is defined in " + text(place->second.place) +
-                ", too; give them different names");
-  place->second.place = card.place;
-  reading.material = &place->second;
+  reading.material = &defined(card, card.required("NAME"), reading.deck.materials);
 }
 
 void readElastic(Reading& reading, const Card& card) {
@@ -128,12 +122,7 @@ void readOrientation(Reading& reading, const Card& card) {
     card.refuse("DEFINITION=" + shortened(definition) + " is not read; write it as COORDINATES");
   if (card.data.empty() || card.data.size() > 2)
     card.refuse("it needs a line with two points, and may have one with an axis and an angle");
-  const auto [place, isNew] = reading.deck.orientations.try_emplace(name);
-  if (!isNew)
-    card.refuse("\"" + shortened(name) + "\" is defined in " + text(place->second.place) +
-                ", too; give them different names");
-  Orientation& orientation = place->second;
-  orientation.place = card.place;
+  Orientation& orientation = defined(card, name, reading.deck.orientations);
   orientation.isCylindrical = system == "CYLINDRICAL";
   std::tie(orientation.a, orientation.b) = twoPoints(Fields(card, card.data[0]));
   if (card.data.size() == 1)

@@ -1,17 +1,13 @@
 #include "epafi/deck/MeshCards.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/SortUnique.hpp"
 
 #include <algorithm>
 #include <map>
 
 namespace epafi::deck {
 namespace {
-
-void sortUnique(std::vector<GlobalOrdinal>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 void readNodeCard(const Card& card, std::vector<std::pair<GlobalOrdinal, Point>>& nodes,
                   std::vector<GlobalOrdinal>* set) {

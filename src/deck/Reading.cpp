@@ -154,4 +154,9 @@ void Reading::ignore(const std::string& keyword, const Place& place) {
     deck.ignored.push_back({keyword, place});
 }
 
+void refuseTwice(const Card& card, const std::string& name, const Place& place) {
+  card.refuse("\"" + shortened(name) + "\" is defined in " + text(place) +
+              ", too; give them different names");
+}
+
 } // namespace epafi::deck

@@ -63,4 +63,16 @@ private:
   std::size_t counted_ = 0;
 };
 
+[[noreturn]] void refuseTwice(const Card& card, const std::string& name, const Place& place);
+
+/// A new thing of that name, with the card's place. \throws InputError if there is one already
+template <class Things>
+auto& defined(const Card& card, const std::string& name, Things& things) {
+  const auto [found, isNew] = things.try_emplace(name);
+  if (!isNew)
+    refuseTwice(card, name, found->second.place);
+  found->second.place = card.place;
+  return found->second;
+}
+
 } // namespace epafi::deck

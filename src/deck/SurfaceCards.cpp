@@ -1,6 +1,7 @@
 #include "epafi/deck/MeshCards.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/SortUnique.hpp"
 
 #include <algorithm>
 
@@ -34,12 +35,7 @@ void readSurface(Reading& reading, const Card& card) {
   const std::string type = card.value("TYPE");
   if (!type.empty() && type != "NODE" && type != "ELEMENT")
     card.refuse("TYPE=" + shortened(type) + " is not read; a surface is of TYPE=ELEMENT or TYPE=NODE");
-  const auto [place, isNew] = reading.deck.surfaces.try_emplace(name);
-  Surface& surface = place->second;
-  if (!isNew)
-    card.refuse("\"" + shortened(name) + "\" is defined in " + text(surface.place) +
-                ", too; give them different names");
-  surface.place = card.place;
+  Surface& surface = defined(card, name, reading.deck.surfaces);
   surface.ofNodes = type == "NODE";
   for (const Line& line : card.data) {
     const Fields fields(card, line);
@@ -51,10 +47,8 @@ void readSurface(Reading& reading, const Card& card) {
     const std::vector<GlobalOrdinal> nodes = reading.nodes(fields, 0);
     surface.nodes.insert(surface.nodes.end(), nodes.begin(), nodes.end());
   }
-  std::sort(surface.nodes.begin(), surface.nodes.end());
-  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()), surface.nodes.end());
-  std::sort(surface.faces.begin(), surface.faces.end());
-  surface.faces.erase(std::unique(surface.faces.begin(), surface.faces.end()), surface.faces.end());
+  sortUnique(surface.nodes);
+  sortUnique(surface.faces);
   if (surface.nodes.empty() && surface.faces.empty())
     card.refuse("\"" + shortened(name) + "\" is empty; name faces or nodes in the lines behind it");
 }

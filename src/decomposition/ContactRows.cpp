@@ -4,6 +4,7 @@
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
+#include "epafi/base/SortUnique.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Export.hpp>
@@ -65,8 +66,7 @@ std::vector<GlobalOrdinal> nodesOf(const CrsMatrix& b, int components) {
   for (const GlobalOrdinal unknown : localIndices(columns))
     nodes.push_back(unknown / components);
   nodes = gatherOnAll(*columns.getComm(), nodes);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sortUnique(nodes);
   return nodes;
 }
 
@@ -98,8 +98,7 @@ RCP<const CrsMatrix> columnsAt(const CrsMatrix& b, const Substructures& all, std
   for (const Place& place : places)
     for (int c = 0; c < all.components; ++c)
       unknowns.push_back(all.globalUnknown(place.subdomain, place.node, c));
-  std::sort(unknowns.begin(), unknowns.end());
-  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  sortUnique(unknowns);
   const RCP<const CrsMatrix> transposed =
       Tpetra::RowMatrixTransposer<Scalar>(Teuchos::rcpFromRef(b)).createTranspose();
   const Map& domain = *transposed->getRowMap();

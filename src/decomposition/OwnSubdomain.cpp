@@ -1,5 +1,7 @@
 #include "epafi/decomposition/OwnSubdomain.hpp"
 
+#include "epafi/base/SortUnique.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +20,7 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
   subdomain.body = matrix.body;
   for (const GlobalOrdinal unknown : matrix.unknowns)
     subdomain.nodes.push_back(unknown / components);
-  std::sort(subdomain.nodes.begin(), subdomain.nodes.end());
-  subdomain.nodes.erase(std::unique(subdomain.nodes.begin(), subdomain.nodes.end()), subdomain.nodes.end());
+  sortUnique(subdomain.nodes);
 
   const Eigen::Index n = matrix.unknowns.size();
   const Eigen::Index numPositions = subdomain.nodes.size() * components;

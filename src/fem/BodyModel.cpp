@@ -1,5 +1,6 @@
 #include "epafi/fem/BodyModel.hpp"
 
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/mesh/ConnectedElements.hpp"
@@ -155,8 +156,7 @@ void BodyModel::findFramedElements() {
     body_.mesh.nodeElements(node, elements);
     framedElements_.insert(framedElements_.end(), elements.begin(), elements.end());
   }
-  std::sort(framedElements_.begin(), framedElements_.end());
-  framedElements_.erase(std::unique(framedElements_.begin(), framedElements_.end()), framedElements_.end());
+  sortUnique(framedElements_);
 }
 
 bool BodyModel::isFramed(GlobalOrdinal element) const {

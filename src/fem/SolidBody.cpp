@@ -1,5 +1,6 @@
 #include "epafi/fem/SolidBody.hpp"
 
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/mesh/MeshPart.hpp"
 
@@ -54,8 +55,7 @@ std::vector<GlobalOrdinal> SolidBody::nodesOf(const std::string& user, const std
   const std::vector<std::string> sets = mesh.nodeSetNames();
   if (std::find(names.begin(), names.end(), name) != names.end()) {
     std::vector<GlobalOrdinal> nodes = mesh.surface(name).facetNodes;
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sortUnique(nodes);
     return nodes;
   }
   names.insert(names.end(), sets.begin(), sets.end());

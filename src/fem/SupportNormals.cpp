@@ -1,5 +1,6 @@
 #include "epafi/fem/SupportNormals.hpp"
 
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
 
 #include <algorithm>
@@ -24,8 +25,7 @@ struct Facets {
   std::vector<Vector3d> normals;
 
   Facets(const mesh::Mesh& mesh, const mesh::Surface& surface) : nodes(surface.facetNodes) {
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sortUnique(nodes);
     at.resize(nodes.size());
     nodesOf.resize(surface.elements.size());
     std::vector<Point> corners;

@@ -1,6 +1,7 @@
 #include "epafi/meshing/MshReader.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/meshing/MshSections.hpp"
 
@@ -196,8 +197,7 @@ LocalOrdinal Contents::nodeOf(GlobalOrdinal tag) const {
 std::vector<GmshGroup> Contents::groupsOf(int dimension) const {
   std::vector<GmshGroup> groups;
   for (auto [number, entities] : records_.groupEntities[dimension]) {
-    std::sort(entities.begin(), entities.end());
-    entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
+    sortUnique(entities);
     const auto found = records_.groupNames.find({dimension, number});
     const bool hasName = found != records_.groupNames.end() && !found->second.empty();
     const std::string name = hasName ? found->second : std::to_string(number);
@@ -233,8 +233,7 @@ void Contents::addNodeSets(int dimension) {
     for (const GmshBlock& block : blocks)
       if (std::binary_search(group.entities.begin(), group.entities.end(), block.entity))
         set->nodes.insert(set->nodes.end(), block.nodes.begin(), block.nodes.end());
-    std::sort(set->nodes.begin(), set->nodes.end());
-    set->nodes.erase(std::unique(set->nodes.begin(), set->nodes.end()), set->nodes.end());
+    sortUnique(set->nodes);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/PointToPoint.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/decomposition/Clusters.hpp"
 #include "epafi/mesh/MeshPart.hpp"
 
@@ -19,10 +20,9 @@ namespace {
 
 using Keys = std::vector<GlobalOrdinal>;
 
-template <class Number>
-void sortEach(std::vector<Number>& keys) {
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+/// Adds a record, or the nodes of an element.
+void append(Keys& keys, std::span<const GlobalOrdinal> more) {
+  keys.insert(keys.end(), more.begin(), more.end());
 }
 
 /// A facet of a surface, or a node of a set, as the rank finds it that has its element.
@@ -32,6 +32,8 @@ struct FoundFacet {
   std::array<GlobalOrdinal, mesh::mostFacetNodes> nodes{}; ///< their keys, outwards
 
   [[nodiscard]] auto order() const { return std::tuple(surface, element, place, nodes[0]); }
+  bool operator==(const FoundFacet& other) const { return order() == other.order(); }
+  bool operator<(const FoundFacet& other) const { return order() < other.order(); }
 };
 
 class PieceMaker {
@@ -106,9 +108,9 @@ mesh::PartArrays PieceMaker::make(std::shared_ptr<const meshing::Partition>& par
 void PieceMaker::numberNodes() {
   keys_.clear();
   for (std::size_t e = 0; e < held_.size(); ++e)
-    keys_.insert(keys_.end(), held_.nodes(e).begin(), held_.nodes(e).end());
+    append(keys_, held_.nodes(e));
   cells_.resize(keys_.size());
-  sortEach(keys_);
+  sortUnique(keys_);
   keys_.shrink_to_fit();
   auto next = cells_.begin();
   for (std::size_t e = 0; e < held_.size(); ++e)
@@ -126,9 +128,7 @@ void PieceMaker::takeOwn() {
   std::map<int, Keys> outgoing;
   for (std::size_t e = 0; e < held_.size(); ++e) {
     const auto owner = std::upper_bound(ends.begin(), ends.end(), held_.part(e)) - ends.begin();
-    const auto record = held_.record(e);
-    Keys& message = outgoing[static_cast<int>(owner)];
-    message.insert(message.end(), record.begin(), record.end());
+    append(outgoing[static_cast<int>(owner)], held_.record(e));
   }
   held_ = held_.none();
   for (const auto& [rank, records] : deliver(comm_, std::move(outgoing)))
@@ -147,11 +147,9 @@ void PieceMaker::takeAround() {
     for (const GlobalOrdinal key : shared)
       for (const LocalOrdinal element : topology_->elementsOf(placeOf(key)))
         touching.push_back(element);
-    sortEach(touching);
-    for (const LocalOrdinal element : touching) {
-      const auto record = held_.record(index(element));
-      message.insert(message.end(), record.begin(), record.end());
-    }
+    sortUnique(touching);
+    for (const LocalOrdinal element : touching)
+      append(message, held_.record(index(element)));
   }
   for (const auto& [rank, records] : exchange(comm_, outgoing, senders))
     held_.append(records);
@@ -166,7 +164,7 @@ void PieceMaker::markBoundary() {
       for (const GlobalOrdinal key : held_.nodes(e))
         if (topology_->isOnBoundary(placeOf(key)))
           onBoundary.push_back(key);
-  sortEach(onBoundary);
+  sortUnique(onBoundary);
   directory_.markBoundary(onBoundary);
 }
 
@@ -257,10 +255,10 @@ void PieceMaker::takeSurfaces() {
     Keys at;
     for (const FoundFacet& facet : facets_)
       at.push_back(facet.element);
-    sortEach(at);
+    sortUnique(at);
     for (std::size_t e = 0, next = 0; e < held_.size() && next < at.size(); ++e)
       if (held_.number(e) == at[next]) {
-        records.insert(records.end(), held_.record(e).begin(), held_.record(e).end());
+        append(records, held_.record(e));
         ++next;
       }
   });
@@ -268,12 +266,7 @@ void PieceMaker::takeSurfaces() {
   held_.append(gatherOnAll(comm_, records));
   collectively(comm_, [&] {
     held_.sort();
-    std::sort(facets_.begin(), facets_.end(),
-              [](const FoundFacet& a, const FoundFacet& b) { return a.order() < b.order(); });
-    facets_.erase(
-        std::unique(facets_.begin(), facets_.end(),
-                    [](const FoundFacet& a, const FoundFacet& b) { return a.order() == b.order(); }),
-        facets_.end());
+    sortUnique(facets_);
   });
 }
 
@@ -304,7 +297,7 @@ void PieceMaker::addNodeSets(mesh::PartArrays& part) const {
     part.nodeSets.back().second.push_back(part.nodes[placeOf(node.nodes[0])]);
   }
   for (auto& [name, nodes] : part.nodeSets)
-    sortEach(nodes);
+    sortUnique(nodes);
 }
 
 mesh::PartArrays PieceMaker::arrays() const {

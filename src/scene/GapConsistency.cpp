@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/ParameterValue.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
@@ -94,8 +95,7 @@ std::vector<Constraint> negativeCycle(const std::vector<Constraint>& constraints
 
 /// "'a', 'b' and 'c'", each once.
 std::string listedOnce(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
+  sortUnique(names);
   return listed(names, "'");
 }
 

@@ -17,6 +17,7 @@ namespace {
 
 using test::Corner;
 using test::Patches;
+using test::Peak;
 
 double sumOfUnknowns(const LoopResult& result) {
   double sum = 0;
@@ -49,23 +50,6 @@ TEST(AccuracyLoopTest, ReachesTheTargetOfASmoothSolutionWithLittleMoreThanItsLas
         }
       }
 }
-
-/// A number that looks at one element, and grows by a power of its size to a limit of its own, or without
-/// one.
-class Peak : public Patches {
-public:
-  Peak(double power, double limit) : power_(power), limit_(limit) {}
-  MeshResult solve(int order) override {
-    MeshResult result = Patches::solve(order);
-    const double width = 10 / std::sqrt(static_cast<double>(result.unknowns));
-    const double value = std::pow(std::hypot(width, limit_), -power_);
-    result.quantity = {value, value, 0, width};
-    return result;
-  }
-
-private:
-  double power_, limit_;
-};
 
 TEST(AccuracyLoopTest, ANumberThatGrowsByTheSamePowerFromMeshToMeshIsGivenUp) {
   for (const double power : {0.2, 0.5}) {

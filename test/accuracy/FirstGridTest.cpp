@@ -43,13 +43,7 @@ scene::Scene blocks(fem::Physics physics) {
       isPlane ? mesh::Box{{0.7, 1, 0}, {2.2, 1.4, 0}} : mesh::Box{{0.7, -0.5, 1}, {2.2, 1.1, 1.4}};
   lower.mesh.elements = isPlane ? std::array{2, 1, 0} : std::array{2, 2, 1};
   upper.mesh.elements = isPlane ? std::array{7, 3, 0} : std::array{5, 3, 2};
-  scene::SurfaceContact joint;
-  joint.name = "joint";
-  joint.first = 0;
-  joint.firstSurface = "top";
-  joint.second = 1;
-  joint.secondSurface = "bottom";
-  scene.contacts.push_back(joint);
+  scene.contacts = {{"joint", 0, "top", 1, "bottom"}};
   return scene;
 }
 

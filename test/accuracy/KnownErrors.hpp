@@ -92,6 +92,23 @@ private:
   std::vector<double> weights_, sizes_;
 };
 
+/// A number that looks at one element, and grows by a power of its size to a limit of its own, or without
+/// one.
+class Peak : public Patches {
+public:
+  Peak(double power, double limit) : power_(power), limit_(limit) {}
+  MeshResult solve(int order) override {
+    MeshResult result = Patches::solve(order);
+    const double width = 10 / std::sqrt(static_cast<double>(result.unknowns));
+    const double value = std::pow(std::hypot(width, limit_), -power_);
+    result.quantity = {value, value, 0, width};
+    return result;
+  }
+
+private:
+  double power_, limit_;
+};
+
 /// A square in rectangles, with a solution that goes like r^α at the origin: η² = c² h^(2p) r^(2(α − 1 − p))
 /// |K|. Elements are halved across their longer side, so that the mesh is seldom just what is wanted.
 class Corner : public RefinableProblem {

@@ -6,19 +6,6 @@
 #include <optional>
 
 namespace epafi::test {
-namespace {
-
-fem::SolidLoad loadOn(const std::string& surface, fem::SolidLoad::Kind kind, const Vector3& value) {
-  fem::SolidLoad load;
-  load.name = surface;
-  load.kind = kind;
-  load.where = surface;
-  load.value = value;
-  return load;
-}
-
-} // namespace
-
 scene::Decomposition randomCut(Dice& dice, int dimension, int elements) {
   if (dice.upTo(3) == 0)
     return cutByMetis(1 + dice.upTo(4));
@@ -66,11 +53,11 @@ Draw drawn(unsigned seed, int dimension, Hold hold) {
     return made;
   };
   scene::Body upper = body("upper", 0, height);
-  upper.loads.push_back(loadOn("top", fem::SolidLoad::Kind::traction, top));
+  upper.loads.push_back(loadOn("top", top));
   if (dice.upTo(2) == 0)
     upper.loads.push_back(
-        loadOn("left", fem::SolidLoad::Kind::pressure,
-               {(isFree ? 0.5 * std::min(holds, 0.5 * press) : press) * dice.between(-1, 1), 0, 0}));
+        loadOn("left", {(isFree ? 0.5 * std::min(holds, 0.5 * press) : press) * dice.between(-1, 1), 0, 0},
+               fem::SolidLoad::Kind::pressure));
   if (dice.upTo(4) == 0) {
     Vector3 weight{0, 0, 0};
     weight[vertical] = -press * dice.between(0, 0.5);

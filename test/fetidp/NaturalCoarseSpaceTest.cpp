@@ -48,14 +48,6 @@ struct Floating {
   RCP<const NaturalCoarseSpace> space;
 };
 
-std::vector<ContactCase> floatingCases() {
-  std::vector<ContactCase> cases;
-  for (const ContactCase& c : contactCases())
-    if (!c.coercive)
-      cases.push_back(c);
-  return cases;
-}
-
 TEST(NaturalCoarseSpaceTest, KernelConstraintIsTheKernelSeenByTheConstraints) {
   for (const ContactCase& c : floatingCases()) {
     SCOPED_TRACE(c.name);

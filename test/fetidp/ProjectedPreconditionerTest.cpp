@@ -28,14 +28,6 @@ struct Projected {
   ProjectedOperator op;
 };
 
-std::vector<ContactCase> floatingCases() {
-  std::vector<ContactCase> cases;
-  for (const ContactCase& c : contactCases())
-    if (!c.coercive)
-      cases.push_back(c);
-  return cases;
-}
-
 constexpr double penalties[] = {0.01, 50};
 
 TEST(ProjectedPreconditionerTest, IsPMPOnTheKernelOfGAndOneOverTheNormalPenaltyBesideIt) {

@@ -1,6 +1,7 @@
 #include "support/Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/fetidp/operator/SubdomainInterface.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -49,8 +50,7 @@ TEST(SubdomainInterfaceTest, HoldsTheUnknownsThatConstraintsTouchRemaindersFirst
         EXPECT_EQ(interface.positionOf[found[i]], static_cast<int>(i));
       for (const auto& entry : s.constraint)
         touched.push_back(entry.unknown);
-      std::sort(touched.begin(), touched.end());
-      touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+      sortUnique(touched);
       std::sort(found.begin(), found.end());
       EXPECT_EQ(found, touched);
       EXPECT_EQ(interface.size(), touched.size());

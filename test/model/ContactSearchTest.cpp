@@ -1,6 +1,7 @@
 #include "epafi/model/SceneContacts.hpp"
 
-#include "epafi/base/Errors.hpp"
+#include "support/Refusal.hpp"
+
 #include "epafi/mesh/StructuredMesh.hpp"
 #include "epafi/mesh/UnstructuredMesh.hpp"
 
@@ -19,12 +20,7 @@ BodyLayout box(const std::string& name, const mesh::Box& extent, std::array<int,
 }
 
 scene::SurfaceContact topOnBottom() {
-  scene::SurfaceContact contact;
-  contact.name = "joint";
-  contact.firstSurface = "top";
-  contact.second = 1;
-  contact.secondSurface = "bottom";
-  return contact;
+  return {"joint", 0, "top", 1, "bottom"};
 }
 
 double sum(const std::vector<double>& values) {
@@ -33,12 +29,7 @@ double sum(const std::vector<double>& values) {
 
 std::string complaint(const scene::SurfaceContact& contact, const std::vector<BodyLayout>& bodies,
                       int components) {
-  try {
-    layoutContact(contact, bodies, components);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return epafi::test::refusal([&] { layoutContact(contact, bodies, components); });
 }
 
 TEST(ContactSearchTest, FindsTheNodesThatFaceEachOther) {

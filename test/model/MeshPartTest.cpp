@@ -2,8 +2,9 @@
 // before.
 
 #include "support/Gathered.hpp"
+#include "support/Refusal.hpp"
 
-#include "epafi/base/Errors.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/mesh/MeshPart.hpp"
 #include "epafi/mesh/StructuredMesh.hpp"
 #include "epafi/model/MeshPieces.hpp"
@@ -187,8 +188,7 @@ TEST_P(MeshPartTest, HoldsWhatTouchesItsNodesOrASurfaceAndNothingElse) {
   for (const std::string& name : whole_.surfaceNames())
     for (const GlobalOrdinal element : whole_.surface(name).elements)
       expected.push_back(element);
-  std::sort(expected.begin(), expected.end());
-  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  sortUnique(expected);
   EXPECT_EQ(dealtOut().elements(), expected);
 }
 
@@ -219,12 +219,8 @@ protected:
     return loose;
   }
   void expectRefused(meshing::LooseMesh loose, const std::string& words) {
-    try {
-      dealOut(std::move(loose), columns_.own(), *world(), body_);
-      ADD_FAILURE() << "not refused";
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-    }
+    epafi::test::expectSays(
+        epafi::test::refusal([&] { dealOut(std::move(loose), columns_.own(), *world(), body_); }), {words});
   }
 };
 
@@ -279,13 +275,9 @@ TEST_F(DealtMeshTest, ElementsThatShareTheCornersOfAFacetAloneAreRefused) {
     }
     torn.elements.add(loose.elements.number(e), loose.elements.part(e), nodes);
   }
-  try {
-    dealOut(std::move(torn), columns.own(), *world(), body_);
-    ADD_FAILURE() << "not refused";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("share the corners of a facet, but not node"), std::string::npos)
-        << error.what();
-  }
+  epafi::test::expectSays(
+      epafi::test::refusal([&] { dealOut(std::move(torn), columns.own(), *world(), body_); }),
+      {"share the corners of a facet, but not node"});
 }
 
 TEST_F(DealtMeshTest, PartsThatAreNotJoinedInFacetsAreRefused) {
@@ -297,13 +289,10 @@ TEST_F(DealtMeshTest, PartsThatAreNotJoinedInFacetsAreRefused) {
     for (int i = 0; i < 3; ++i)
       loose.nodes.push_back({key + i, {2, 2, 0}, true});
   }
-  try {
-    const bool isLast = columns_.own().end == last; // on all ranks behind the last part, too
-    dealOut(std::move(loose), {columns_.own().begin, columns_.own().end + (isLast ? 1 : 0)}, *world(), body_);
-    ADD_FAILURE() << "not refused";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("not joined"), std::string::npos) << error.what();
-  }
+  auto own = columns_.own();
+  own.end += own.end == last ? 1 : 0; // on all ranks behind the last part, too
+  epafi::test::expectSays(epafi::test::refusal([&] { dealOut(std::move(loose), own, *world(), body_); }),
+                          {"not joined"});
 }
 
 TEST_F(DealtMeshTest, NodesAtTwoPlacesAreRefused) {

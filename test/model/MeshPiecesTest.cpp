@@ -61,14 +61,8 @@ scene::Scene sceneOf(const MeshFolder& folder, int order, scene::SurfaceContact:
                  {"pull", Kind::point, {}, "tip", {}, {1, 2, 3}},
                  {"turn", Kind::rotation, {}, "", {0.5, 0, 0}, {2, 0, 0}},
                  {"weight", Kind::body, {{-1, -1, 1.2}, {1, 0.2, 2}}, "", {}, {0, 0, -1}}};
-  scene::SurfaceContact contact;
-  contact.name = "joint";
-  contact.first = 0;
-  contact.firstSurface = "joint";
-  contact.second = 1;
-  contact.secondSurface = "foot";
-  contact.kind = kind;
-  scene.contacts = {contact};
+  scene.contacts = {{"joint", 0, "joint", 1, "foot"}};
+  scene.contacts[0].kind = kind;
   return scene;
 }
 
@@ -173,12 +167,7 @@ protected:
 
   /// In the words in which whole meshes are refused, on every rank.
   void expectRefusedAlike(const std::string& part) {
-    std::string words;
-    try {
-      decompose(scene_, world());
-    } catch (const InputError& error) {
-      words = error.what();
-    }
+    const std::string words = epafi::test::refusal([&] { decompose(scene_, world()); });
     EXPECT_NE(words.find(part), std::string::npos) << words;
     epafi::test::expectRefusal([&] { decompose(scene_, world(), Meshes::pieces); }, {words});
   }

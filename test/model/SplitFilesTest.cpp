@@ -73,14 +73,8 @@ protected:
     scene.bodies[1].loads = {{"press", Kind::pressure, {}, "top", {}, {3, 0, 0}},
                              {"corner", Kind::point, {}, "", {2.2, 1, 1}, {0, 0.1, 0.2}},
                              {"weight", Kind::body, {{1.2, -1, -1}, {3, 2, 2}}, "", {}, {0, 0, -1}}};
-    scene::SurfaceContact tie;
-    tie.name = "joint";
-    tie.first = 0;
-    tie.firstSurface = "joint";
-    tie.second = 1;
-    tie.secondSurface = "joint";
-    tie.kind = scene::SurfaceContact::Kind::tied;
-    scene.contacts = {tie};
+    scene.contacts = {{"joint", 0, "joint", 1, "joint"}};
+    scene.contacts[0].kind = scene::SurfaceContact::Kind::tied;
     return scene;
   }
 

@@ -1,6 +1,7 @@
 // Friction in scenes, beside values of an independent solver on the same meshes (whole bodies by one factor,
 // exact Newton on dense matrices).
 
+#include "support/Refusal.hpp"
 #include "support/SolidScenes.hpp"
 
 #include "epafi/base/Collective.hpp"
@@ -127,12 +128,7 @@ scene::Scene twoBlocks(int n, scene::SurfaceContact::Coupling coupling, bool isU
   for (scene::Body& body : scene.bodies)
     body.mesh.order = 2;
   scene.bodies[0].supports.push_back({"foot", "bottom", {0.0, 0.0}});
-  fem::SolidLoad top;
-  top.name = "top";
-  top.kind = fem::SolidLoad::Kind::traction;
-  top.where = "top";
-  top.value = {0.002, -0.01, 0};
-  scene.bodies[1].loads.push_back(top);
+  scene.bodies[1].loads = {test::loadOn("top", {0.002, -0.01, 0})};
   scene.contacts.push_back(isUpperFirst ? test::between("joint", 1, "bottom", 0, "top")
                                         : test::between("joint", 0, "top", 1, "bottom"));
   scene.contacts[0].coupling = coupling;
@@ -203,24 +199,14 @@ TEST(FrictionSceneTest, InSpaceFrictionPointsAgainstTheSlip) {
 TEST(FrictionSceneTest, AStepThatFrictionDoesNotHoldIsNamed) {
   scene::Scene scene = heldBlock(4, test::cutInGrid({2, 1, 1}));
   scene.bodies[0].supports.clear();
-  fem::SolidLoad load;
-  load.kind = fem::SolidLoad::Kind::traction;
-  load.where = "top";
-  for (const Vector3& value : {Vector3{0, -0.01, 0}, Vector3{0.001, 0, 0}}) {
-    load.value = value;
-    scene.bodies[0].loads.push_back(load);
-  }
+  scene.bodies[0].loads = {test::loadOn("top", {0, -0.01, 0}), test::loadOn("top", {0.001, 0, 0})};
   std::vector<scene::Step> steps(2);
   steps[0].name = "held";
   steps[1].name = "slides";
   steps[1].loads[{0, 1}] = 4; // 0.004 beside 0.3 times 0.01
-  try {
-    solveSteps(scene, steps, {}, Tpetra::getDefaultComm(), {}, {});
-    FAIL() << "no refusal";
-  } catch (const SolvabilityError& error) {
-    EXPECT_EQ(error.kind(), SolvabilityError::Kind::noSolution);
-    EXPECT_NE(std::string(error.what()).find("(in step \"slides\")"), std::string::npos) << error.what();
-  }
+  test::expectSays(test::unsolvable(SolvabilityError::Kind::noSolution,
+                                    [&] { solveSteps(scene, steps, {}, Tpetra::getDefaultComm(), {}, {}); }),
+                   {"(in step \"slides\")"});
 }
 
 /// Elements of order 2, whose nodes are not alike.
@@ -242,17 +228,8 @@ TEST(FrictionSceneTest, WhatHasSlippedIsKeptFromStepToStep) {
   scene::Scene scene = heldBlock(32, test::cutInGrid({2, 2, 1}));
   scene.bodies[0].mesh.order = 2;
   scene.bodies[0].supports.clear();
-  const auto loadOn = [&](const std::string& name, fem::SolidLoad::Kind kind, const std::string& surface,
-                          const Vector3& value) {
-    fem::SolidLoad load;
-    load.name = name;
-    load.kind = kind;
-    load.where = surface;
-    load.value = value;
-    scene.bodies[0].loads.push_back(load);
-  };
-  loadOn("press", fem::SolidLoad::Kind::traction, "top", {0, -0.01, 0});
-  loadOn("push", fem::SolidLoad::Kind::pressure, "left", {0.0027, 0, 0});
+  scene.bodies[0].loads = {test::loadOn("top", {0, -0.01, 0}),
+                           test::loadOn("left", {0.0027, 0, 0}, fem::SolidLoad::Kind::pressure)};
   std::vector<scene::Step> steps(4);
   const double factors[] = {0, 1, -1, 0};
   for (std::size_t k = 0; k < 4; ++k) {

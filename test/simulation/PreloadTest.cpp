@@ -135,12 +135,7 @@ TEST(PreloadTest, AFixedSupportHoldsWhatALoadHasMovedUntilItIsOff) {
   scene::Scene scene = blockOnFloor();
   scene.contacts.clear();
   scene.bodies[0].supports = {{"foot", "bottom", {0.0, 0.0}}, {"grip", "top", {0.0, 0.0}}};
-  fem::SolidLoad push;
-  push.name = "push";
-  push.kind = fem::SolidLoad::Kind::traction;
-  push.where = "top";
-  push.value = {0.3, -0.5, 0};
-  scene.bodies[0].loads = {push};
+  scene.bodies[0].loads = {test::loadOn("top", {0.3, -0.5, 0})};
   std::vector<scene::Step> steps(4);
   steps[0].states[{0, 1}] = scene::SupportState::off;
   steps[1].states[{0, 1}] = scene::SupportState::fixed;
@@ -178,12 +173,7 @@ scene::Scene squareOnSprings(const std::string& file, bool onAnother) {
     body.supports = {test::slide("left")};
     scene.bodies.push_back(body);
   }
-  fem::SolidLoad push;
-  push.name = "push";
-  push.kind = fem::SolidLoad::Kind::traction;
-  push.where = "top";
-  push.value = {0, -0.5, 0};
-  scene.bodies[0].loads = {push};
+  scene.bodies[0].loads = {test::loadOn("top", {0, -0.5, 0})};
   scene.bodies[1].supports.push_back(test::slide("bottom"));
   for (const auto& [upper, lower] : {std::pair("a", "d"), {"b", "c"}}) {
     scene::Equation spring{"spring", {{1, 0, upper, 1}}, 0.01, 4};
@@ -232,12 +222,7 @@ TEST(PreloadTest, ATieOfSurfacesThatLookOneWayHoldsThemTogether) {
     for (scene::Body& body : scene.bodies)
       body.material.poissonsRatio = 0;
     scene.bodies[0].supports.push_back({"foot", "bottom", {0.0, 0.0}});
-    fem::SolidLoad pull;
-    pull.name = "pull";
-    pull.kind = fem::SolidLoad::Kind::traction;
-    pull.where = "bottom";
-    pull.value = {0, -2, 0};
-    scene.bodies[1].loads = {pull};
+    scene.bodies[1].loads = {test::loadOn("bottom", {0, -2, 0})};
     scene.contacts.push_back(test::between("joint", 1, "top", 0, "top"));
     scene.contacts[0].kind = scene::SurfaceContact::Kind::tied;
     scene.contacts[0].distance = 0.1;

@@ -90,6 +90,14 @@ std::vector<ContactCase> contactCases() {
   return cases;
 }
 
+std::vector<ContactCase> floatingCases() {
+  std::vector<ContactCase> cases;
+  for (const ContactCase& c : contactCases())
+    if (!c.coercive)
+      cases.push_back(c);
+  return cases;
+}
+
 DenseProblem densify(const DecomposedProblem& problem) {
   DenseProblem dense;
   dense.stiffness = decomposition::mergedStiffness(problem);

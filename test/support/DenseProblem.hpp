@@ -42,6 +42,8 @@ struct ContactCase {
 /// Two and three bodies, held and floating, cut in all ways that a small mesh allows. The loads press
 /// floating bodies onto their contacts and open a part of these.
 std::vector<ContactCase> contactCases();
+/// Those of them that float.
+std::vector<ContactCase> floatingCases();
 /// Membranes of two clusters each, whose edges end at the other one.
 std::vector<ContactCase> clusteredCases();
 

@@ -86,19 +86,8 @@ inline scene::Scene stackedBlocks(const Kind& kind, int parts, double pressure,
   fem::SolidSupport floor{"floor", "bottom", {}};
   floor.value[static_cast<std::size_t>(mesh::dimensionOf(kind.cell)) - 1] = 0.0;
   scene.bodies[0].supports.push_back(floor);
-  fem::SolidLoad press;
-  press.name = "press";
-  press.kind = fem::SolidLoad::Kind::pressure;
-  press.where = "top";
-  press.value[0] = pressure;
-  scene.bodies[1].loads.push_back(press);
-  scene::SurfaceContact joint;
-  joint.name = "joint";
-  joint.first = 0;
-  joint.firstSurface = "top";
-  joint.second = 1;
-  joint.secondSurface = "bottom";
-  scene.contacts.push_back(joint);
+  scene.bodies[1].loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "top", {}, {pressure, 0, 0}}};
+  scene.contacts = {{"joint", 0, "top", 1, "bottom"}};
   return scene;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "epafi/base/Errors.hpp"
-#include "epafi/mesh/Mesh.hpp"
+#include "support/Refusal.hpp"
 #include "support/SampleCells.hpp"
+
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -40,14 +41,9 @@ private:
 /// Expects that `work` throws an InputError whose text holds every one of `parts`.
 template <class Work>
 void expectRefusal(const Work& work, const std::vector<std::string>& parts) {
-  try {
-    work();
-    ADD_FAILURE() << "not refused; expected: " << parts.front();
-  } catch (const InputError& error) {
-    for (const std::string& part : parts)
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-          << '"' << part << "\" is not in: " << error.what();
-  }
+  const std::string said = refusal(work);
+  for (const std::string& part : parts)
+    EXPECT_NE(said.find(part), std::string::npos) << '"' << part << "\" is not in: " << said;
 }
 
 /// Area vectors (in the plane: normal times length) of a surface's facets, outward if the facets are ordered

@@ -26,6 +26,19 @@ std::string refusal(const Work& work) {
   return {};
 }
 
+/// Text of the SolvabilityError of that kind that `work` throws; empty, and a failed test, if it throws none.
+template <class Work>
+std::string unsolvable(SolvabilityError::Kind kind, const Work& work) {
+  try {
+    work();
+  } catch (const SolvabilityError& error) {
+    EXPECT_EQ(error.kind(), kind) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return {};
+}
+
 /// One line that holds all the parts.
 inline void expectSays(const std::string& message, std::initializer_list<std::string> parts) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;

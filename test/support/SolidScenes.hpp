@@ -55,6 +55,12 @@ inline fem::SolidLoad weight(const Vector3& force) {
   return {"weight", fem::SolidLoad::Kind::body, {}, "", {0, 0, 0}, force};
 }
 
+/// On a surface, by which the load is called.
+inline fem::SolidLoad loadOn(const std::string& surface, const Vector3& value,
+                             fem::SolidLoad::Kind kind = fem::SolidLoad::Kind::traction) {
+  return {surface, kind, {}, surface, {0, 0, 0}, value};
+}
+
 inline fem::SolidLoad pointForce(const Vector3& point, const Vector3& force) {
   return {"force", fem::SolidLoad::Kind::point, {}, "", point, force};
 }
@@ -72,13 +78,7 @@ inline scene::SurfaceContact onPlane(const std::string& name, int body, const st
 
 inline scene::SurfaceContact between(const std::string& name, int first, const std::string& firstSurface,
                                      int second, const std::string& secondSurface) {
-  scene::SurfaceContact contact;
-  contact.name = name;
-  contact.first = first;
-  contact.firstSurface = firstSurface;
-  contact.second = second;
-  contact.secondSurface = secondSurface;
-  return contact;
+  return {name, first, firstSurface, second, secondSurface};
 }
 
 /// A solved scene.

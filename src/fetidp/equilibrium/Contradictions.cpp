@@ -4,6 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/fetidp/equilibrium/FeasibleForces.hpp"
 #include "epafi/fetidp/equilibrium/ProblemScales.hpp"
@@ -166,8 +167,7 @@ RCP<Vector> provedContradiction(const DecomposedProblem& problem, const RowProdu
 /// Each once, of many the first ones.
 std::string listedOnce(std::vector<std::string> names) {
   constexpr std::size_t most = 4;
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
+  sortUnique(names);
   if (names.size() > most) {
     names[most - 1] = std::to_string(names.size() - most + 1) + " more";
     names.resize(most);

@@ -2,6 +2,7 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/qp/operators/LocalData.hpp"
 
@@ -34,12 +35,6 @@ void forEachPair(std::span<const KernelEntry> row, int size, const Body& body) {
         body(std::int64_t{b.mode} * size + a.mode, a.value * b.value);
 }
 
-template <class Values>
-void sortOnce(Values& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 std::size_t placeIn(const Pairs& pairs, std::int64_t pair) {
   return std::lower_bound(pairs.begin(), pairs.end(), pair) - pairs.begin();
 }
@@ -54,7 +49,7 @@ Pairs pairsOf(const std::vector<KernelEntry>& entries, int size) {
       forEachPair(row, size, [&](std::int64_t pair, double) { pairs.push_back(pair); });
     last = row;
   });
-  sortOnce(pairs);
+  sortUnique(pairs);
   return pairs;
 }
 
@@ -155,9 +150,9 @@ ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
       contact.push_back(entry);
       modes_.push_back(entry.mode);
     }
-  sortOnce(modes_);
+  sortUnique(modes_);
   modes_ = gatherOnAll(*comm_, modes_);
-  sortOnce(modes_);
+  sortUnique(modes_);
   anchors_ = anchorsAmong(modes_, problem);
   for (KernelEntry& entry : contact)
     entry.mode =
@@ -176,9 +171,9 @@ ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
   };
   Pairs pairs = pairsOf(contact, size);
   forEachMixed([&](std::int64_t pair, int /*row*/, double /*value*/) { pairs.push_back(pair); });
-  sortOnce(pairs);
+  sortUnique(pairs);
   pairs_ = gatherOnAll(*comm_, pairs);
-  sortOnce(pairs_);
+  sortUnique(pairs_);
   forEachMixed([&](std::int64_t pair, int row, double value) {
     mixed_.push_back({placeIn(pairs_, pair), row, value});
   });

@@ -3,6 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/decomposition/Clusters.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
 
@@ -228,8 +229,7 @@ void CoarseProblem::findPlaces() {
     return;
   }
   std::vector<decomposition::CoarseNumber> all = gatherOnAll(*team_, crosspoints_);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sortUnique(all);
   factorSize_ = static_cast<int>(all.size());
   for (const decomposition::CoarseNumber unknown : crosspoints_)
     places_.push_back(static_cast<int>(std::lower_bound(all.begin(), all.end(), unknown) - all.begin()));

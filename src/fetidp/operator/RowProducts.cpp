@@ -1,6 +1,7 @@
 #include "epafi/fetidp/operator/RowProducts.hpp"
 
 #include "epafi/base/Maps.hpp"
+#include "epafi/base/SortUnique.hpp"
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
@@ -16,8 +17,7 @@ RCP<const Import> planOf(const decomposition::DecomposedProblem& problem) {
   std::vector<GlobalOrdinal> here;
   for (const auto& subdomain : problem.subdomains)
     here.insert(here.end(), subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
-  std::sort(here.begin(), here.end());
-  here.erase(std::unique(here.begin(), here.end()), here.end());
+  sortUnique(here);
   return rcp(new Import(problem.crosspointMap, mapInOrder(here, problem.comm)));
 }
 

@@ -1,6 +1,7 @@
 #include "epafi/fetidp/precondition/ContactCrosspoints.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/SortUnique.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -19,8 +20,7 @@ using Unknowns = std::vector<decomposition::CoarseNumber>;
 /// The union over the ranks, ascending. Collective.
 Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
   Unknowns unknowns = gatherOnAll(comm, mine);
-  std::sort(unknowns.begin(), unknowns.end());
-  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  sortUnique(unknowns);
   return unknowns;
 }
 
