@@ -55,9 +55,8 @@ Teuchos::ParameterList ContactSolver::validParameters() {
             "from their best "
             "point, should the faces not settle. 'fixed point': with Coulomb's friction problems with given "
             "bounds, each by active sets, until the bounds settle; else active sets. 'auto': active set "
-            "where bodies float and there is a preconditioner, and where the driver starts from a coarser "
-            "mesh (Accuracy/Coarser Start), else "
-            "MPRGP. Without contact there is nothing to choose.",
+            "with a preconditioner where bodies are elastic or float, and with friction, else MPRGP. "
+            "Without contact there is nothing to choose.",
             algorithms);
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());
@@ -103,6 +102,7 @@ void ContactSolver::factorise(const decomposition::ProblemData& data,
   dual_.reset(); // should this fail, there is none
   fetidp::requireFiniteMatrices(*problem_);
   fetidp::requireOwnData(*problem_, data);
+  fetidp::requireFiniteData(*problem_, data);
   inverse_ = std::make_shared<fetidp::GeneralizedInverse>(*problem_, dualParameters_.directSolvers,
                                                           std::move(earlier));
   dual_ = std::make_unique<fetidp::DualProblem>(*problem_, data, inverse_, dualParameters_, run_);

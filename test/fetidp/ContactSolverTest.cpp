@@ -214,6 +214,8 @@ TEST(ContactSolverTest, LoadsAndGapsThatAreNoNumbersAreRefused) {
               gap.replaceGlobalValue(2, bad);
           });
       test::expectSays(test::refusal([&] { solved.solver.solve(apart); }), {"gap", "contact row 2"});
+      test::expectSays(test::refusal([&] { ContactSolver(Teuchos::ParameterList()).setup(problem, apart); }),
+                       {"gap", "contact row 2"});
     }
 }
 
