@@ -55,8 +55,9 @@ Teuchos::ParameterList ContactSolver::validParameters() {
             "from their best "
             "point, should the faces not settle. 'fixed point': with Coulomb's friction problems with given "
             "bounds, each by active sets, until the bounds settle; else active sets. 'auto': active set "
-            "with a preconditioner where bodies are elastic or float, and with friction, else MPRGP. "
-            "Without contact there is nothing to choose.",
+            "where bodies float and there is a preconditioner, and where the driver starts from a coarser "
+            "mesh (Accuracy/Coarser Start), else "
+            "MPRGP. Without contact there is nothing to choose.",
             algorithms);
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());

@@ -33,7 +33,9 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
       boundKinds);
   addInteger(list, "Coarser Start", static_cast<int>(defaults.coarserFrom),
              "Without a target: elastic scenes with contact and so many unknowns or more look for the "
-             "contact zone on a coarser mesh first: elements of order 1 on the same mesh if those of the "
+             "contact zone on a coarser mesh "
+             "first, and are solved by active sets if nothing else is asked for: elements of order 1 on the "
+             "same mesh if those of the "
              "scene are of order 2; else grids of half as many cells each way, and geometries with elements "
              "twice as large. 0: never.",
              0);

@@ -22,12 +22,6 @@ PlanFacts held() {
   return facts;
 }
 
-PlanFacts heldMembranes() {
-  PlanFacts facts = held();
-  facts.isElastic = false;
-  return facts;
-}
-
 /// And of one that they do not.
 PlanFacts floating() {
   PlanFacts facts = held();
@@ -63,19 +57,14 @@ TEST(PlanTest, TheLeastAlgorithmFollowsFromTheRows) {
   EXPECT_EQ(plan(facts, {}).algorithm, Algorithm::conjugateGradient);
   facts.kernelDimension = 1; // ties hold what supports do not
   EXPECT_EQ(plan(facts, with(Method::activeSets)).algorithm, Algorithm::conjugateGradient);
-  EXPECT_EQ(plan(heldMembranes(), {}).algorithm, Algorithm::mprgp);
+  EXPECT_EQ(plan(held(), {}).algorithm, Algorithm::mprgp);
   EXPECT_EQ(plan(floating(), with(Method::mprgp)).algorithm, Algorithm::smalbe);
 }
 
-TEST(PlanTest, ActiveSetsSolveForElasticBodiesAndThoseThatFloat) {
-  PlanFacts membranes = floating();
-  membranes.isElastic = false;
-  for (const PlanFacts& facts : {held(), floating(), membranes})
-    EXPECT_EQ(plan(facts, {}).algorithm, Algorithm::activeSets);
-  EXPECT_EQ(plan(held(), withoutPreconditioner()).algorithm, Algorithm::mprgp);
-  EXPECT_EQ(plan(held(), with(Method::mprgp)).algorithm, Algorithm::mprgp);
+TEST(PlanTest, ActiveSetsSolveForFloatingBodiesAlone) {
+  EXPECT_EQ(plan(floating(), {}).algorithm, Algorithm::activeSets);
   EXPECT_EQ(plan(floating(), withoutPreconditioner()).algorithm, Algorithm::smalbe);
-  EXPECT_EQ(plan(heldMembranes(), with(Method::activeSets)).algorithm, Algorithm::activeSets);
+  EXPECT_EQ(plan(held(), with(Method::activeSets)).algorithm, Algorithm::activeSets);
 }
 
 TEST(PlanTest, AFixedPointIsForFrictionAlone) {
@@ -99,6 +88,16 @@ TEST(PlanTest, LargeElasticBodiesBeginOnACoarserMesh) {
   glued.numInequalities = 0;
   for (const PlanFacts& facts : {small, membranes, glued})
     EXPECT_FALSE(plan(facts, {}).beginsOnCoarserMesh);
+}
+
+TEST(PlanTest, FromAGoodStartAloneActiveSetsSolveForHeldBodies) {
+  EXPECT_EQ(plan(large(true), {}).algorithm, Algorithm::activeSets);
+  EXPECT_EQ(plan(large(false), {}).algorithm, Algorithm::mprgp); // there is no coarser mesh
+  EXPECT_EQ(plan(large(true), withoutPreconditioner()).algorithm, Algorithm::mprgp);
+  EXPECT_EQ(plan(large(true), with(Method::mprgp)).algorithm, Algorithm::mprgp);
+  PlanFacts small = large(true);
+  small.primalDimension = 999;
+  EXPECT_EQ(plan(small, {}).algorithm, Algorithm::mprgp);
 }
 
 TEST(PlanTest, ThePurposeSaysTheToleranceThatIsNotGiven) {

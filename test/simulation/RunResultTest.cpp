@@ -104,8 +104,9 @@ TEST(RunResultTest, ACoarserMeshThatFailsIsToldAndTheRunGoesOn) {
   EXPECT_EQ(reportOf(run.result).sublist("Start").get<std::string>("Failure"), run.result.start->failure);
 }
 
-TEST(RunResultTest, ThereIsNothingCoarserThanOneElement) {
-  const auto solveWith = [](int elements, GlobalOrdinal coarserFrom) {
+/// There is nothing coarser than one element: what suits a good start is not chosen without one.
+TEST(RunResultTest, WithoutACoarserMeshTheMethodIsTheOneForNoStart) {
+  const auto methodOf = [](int elements, GlobalOrdinal coarserFrom) {
     scene::Scene scene;
     scene.bodies = {
         test::block("block", {{0, 0, 0}, {3, 1, 0}}, {elements, elements, 0}, test::cutInGrid({1, 1, 1}))};
@@ -116,10 +117,12 @@ TEST(RunResultTest, ThereIsNothingCoarserThanOneElement) {
         solveScene(scene, {}, Tpetra::getDefaultComm(), {.facts = {.coarserFrom = coarserFrom}});
     EXPECT_EQ(run.result.status, RunStatus::converged);
     EXPECT_EQ(run.result.start.has_value(), elements > 1 && coarserFrom == 0);
+    return run.result.solve.plan.algorithm;
   };
-  solveWith(1, 1000000);
-  solveWith(1, 0);
-  solveWith(6, 0);
+  const auto cold = methodOf(1, 1000000);
+  EXPECT_NE(cold, fetidp::Algorithm::activeSets);
+  EXPECT_EQ(methodOf(1, 0), cold);
+  EXPECT_EQ(methodOf(6, 0), fetidp::Algorithm::activeSets);
 }
 
 } // namespace

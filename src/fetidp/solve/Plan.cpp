@@ -30,8 +30,7 @@ std::string reasonOf(const PlanFacts& facts) {
          ": bounds and equilibrium constraints";
 }
 
-/// Active sets where bodies float or are elastic: of membranes that are held MPRGP finds the contact in fewer
-/// products.
+/// Active sets where bodies float or the start is good, the contact zone of a coarser mesh.
 void chooseAlgorithm(const PlanFacts& facts, const DualParameters& parameters, Plan& plan) {
   using Method = DualParameters::Method;
   plan.reasons["Algorithm"] = reasonOf(facts);
@@ -45,16 +44,15 @@ void chooseAlgorithm(const PlanFacts& facts, const DualParameters& parameters, P
              slips = facts.numFriction > 0,
              suits = isOpen ? slips || hasPreconditioner(parameters) : parameters.method != Method::mprgp;
   plan.algorithm = slips && parameters.method == Method::fixedPoint  ? Algorithm::fixedPoint
-                   : suits && (!isOpen || floats || facts.isElastic) ? Algorithm::activeSets
+                   : suits && (!isOpen || floats || isGood || slips) ? Algorithm::activeSets
                    : floats                                          ? Algorithm::smalbe
                                                                      : Algorithm::mprgp;
   plan.reasons["Active Sets"] = !isOpen  ? "as given"
                                 : slips  ? "yes: with friction steps of MPRGP end at bounds again and again"
                                 : !suits ? "no: there is no preconditioner"
                                 : floats ? "yes: where bodies float they save outer iterations"
-                                : facts.isElastic
-                                    ? "yes: of elastic bodies they need fewer products than MPRGP"
-                                    : "no: of membranes that are held MPRGP needs fewer products";
+                                : isGood ? "yes: from a good start they need the fewest products"
+                                         : "no: without a good start MPRGP needs fewer products";
   plan.beginsOnCoarserMesh = mayBegin && !isGood && suits;
   plan.reasons["Coarser Start"] =
       !suits      ? "no: it is of use to active sets alone"

@@ -33,9 +33,9 @@ std::string toString(Algorithm algorithm);
 
 /// How the dual problem is to be solved, and how accurately, as the user gives it.
 struct DualParameters : FetiParameters {
-  /// Of problems with contact: active sets where bodies are elastic or float, and there is a preconditioner,
-  /// and with friction, else MPRGP or SMALBE; these; active sets; where there is friction a fixed point of its
-  /// bounds, else active sets. Coulomb's friction is for active sets if MPRGP is asked for.
+  /// Of problems with contact: active sets where bodies float or the start is good, and there is a
+  /// preconditioner, and with friction; MPRGP or SMALBE; active sets; where there is friction a fixed point
+  /// of its bounds, else active sets. Coulomb's friction is for active sets if MPRGP is asked for.
   enum class Method { automatic, mprgp, activeSets, fixedPoint };
   Method method = Method::automatic; ///< how contact is found
   std::optional<double> tolerance{}; ///< on ‖g^P‖ relative to ‖d̃‖ or ‖Pd‖; none: as the purpose asks
