@@ -233,7 +233,7 @@ class Problem:
         self._friction = (None if along is None else (along, self._gaps[1]), nodes.tolist(), *of_nodes, self.unknowns)
 
     def set_ties(self, rows: Any, gaps: Any = 0) -> None:
-        """Eu = d: E, rows x unknowns of all bodies, and d. Rows must not depend on each other, or on what supports hold."""
+        """Eu = d: E, rows x unknowns of all bodies, and d, of each row or one for all; rows may depend on each other."""
         self._require_unsolved()
         matrix = rows_of(rows)
         self._gaps[2] = _per_row(gaps, len(matrix[0]) - 1, "the gaps of ties")
