@@ -103,6 +103,7 @@ void ContactSolver::factorise(const decomposition::ProblemData& data,
   dual_.reset(); // should this fail, there is none
   fetidp::requireFiniteMatrices(*problem_);
   fetidp::requireOwnData(*problem_, data);
+  fetidp::requireFiniteData(*problem_, data);
   inverse_ = std::make_shared<fetidp::GeneralizedInverse>(*problem_, dualParameters_.directSolvers,
                                                           std::move(earlier));
   dual_ = std::make_unique<fetidp::DualProblem>(*problem_, data, inverse_, dualParameters_, run_);

@@ -75,10 +75,14 @@ public:
       take(std::move(matrix), held);
   }
 
-  void setContact(const CompressedRows& rows, const Row<double>& gaps, int numUnknowns) {
-    contact_ = {matrixOf(rows, numUnknowns, comm_), Teuchos::null};
-    contact_.gap = vectorOf(gaps, contact_.rows->getRowMap(), "the gaps");
-    problem_.setContact(contact_);
+  /// B and c of contact, or of ties.
+  void setRows(bool areTied, const CompressedRows& rows, const Row<double>& gaps, int numUnknowns) {
+    decomposition::ConstraintMatrix given{matrixOf(rows, numUnknowns, comm_), Teuchos::null};
+    given.gap = vectorOf(gaps, given.rows->getRowMap(), "the gaps");
+    if (areTied)
+      problem_.setTies(given);
+    else
+      problem_.setContact(contact_ = given);
   }
 
   /// \param tangents      T and s; nothing: along the tangents of each row of contact
@@ -111,9 +115,8 @@ public:
       }
   }
 
-  /// \param loads  of all unknowns  \param gaps  of all rows of contact; nothing: as last
-  py::dict solve(const Row<double>& loads, const std::optional<Row<double>>& gaps,
-                 const py::object& progress);
+  /// \param loads  of all unknowns  \param gaps  of all rows of contact, friction and ties
+  py::dict solve(const Row<double>& loads, const Row<double>& gaps, const py::object& progress);
 
 private:
   void take(decomposition::SubdomainMatrix&& matrix, const std::map<GlobalOrdinal, double>& held) {
@@ -123,62 +126,56 @@ private:
     unknowns_.push_back(matrix.unknowns);
     problem_.add(std::move(matrix));
   }
-  void setLoads(const Row<double>& loads);
-  [[nodiscard]] py::dict resultOf(const fetidp::ContactSolution& solution, const Vector& values,
-                                  py::ssize_t numUnknowns) const;
+  void setLoads(const Row<double>& loads) {
+    std::size_t place = 0;
+    for (std::size_t s = 0; s < unknowns_.size(); ++s) {
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(std::ssize(unknowns_[s]));
+      for (std::size_t i = 0; i < unknowns_[s].size(); ++i, ++place)
+        if (hasLoad_[place])
+          load[static_cast<Eigen::Index>(i)] = loads.data()[unknowns_[s][i]];
+      problem_.setLoad(s, load);
+    }
+  }
+  /// \param values  u
+  py::dict resultOf(const fetidp::ContactSolution& solution, const Vector& values,
+                    py::ssize_t numUnknowns) const {
+    std::vector<double> u(numUnknowns, 0.0);
+    const auto data = values.getData();
+    for (Teuchos::Ordinal i = 0; i < data.size(); ++i)
+      u[values.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))] = data[i];
+    const auto multipliers = solution.multiplier->getData();
+    const auto forcesOf = [&](GlobalOrdinal first, GlobalOrdinal count) {
+      std::vector<double> forces;
+      for (GlobalOrdinal row = first; row < first + count; ++row)
+        forces.push_back(multipliers[solution.multiplier->getMap()->getLocalElement(row)]);
+      return arrayOf(std::move(forces));
+    };
+    const decomposition::DecomposedProblem& all = problem_.problem();
+    const SolveFacts facts = solver_->facts();
+    using namespace py::literals;
+    return py::dict("u"_a = arrayOf(std::move(u)), "forces"_a = forcesOf(0, all.numInequalities),
+                    "tangential"_a = forcesOf(all.numInequalities, all.numFriction),
+                    "tie_forces"_a = forcesOf(all.firstTie(), all.numTies), "energy"_a = solution.energy,
+                    "status"_a = toString(facts.status), "reason"_a = facts.statusReason,
+                    "products"_a = facts.counts.hessianMultiplications, "setup_seconds"_a = facts.times.setup,
+                    "seconds"_a = seconds_, "subdomains"_a = facts.numSubdomains,
+                    "feasibility"_a = solution.feasibility, "complementarity"_a = solution.complementarity,
+                    "projected_gradient"_a = solution.relativeProjectedGradient);
+  }
 
   int components_;
   RCP<const Comm> comm_;
   decomposition::UnassembledProblem problem_;
   std::vector<std::vector<GlobalOrdinal>> unknowns_; ///< of each subdomain
   std::vector<bool> hasLoad_;                        ///< of their unknowns, one subdomain after the other
-  decomposition::ConstraintMatrix contact_;          ///< null without contact
-  std::vector<double> coefficients_, bounds_;        ///< of nodes with friction
+  decomposition::ConstraintMatrix contact_;
+  std::vector<double> coefficients_, bounds_; ///< of nodes with friction
   std::unique_ptr<ContactSolver> solver_;
   RCP<Vector> last_;   ///< multipliers of the last solution
   double seconds_ = 0; ///< of the library in the last call
 };
 
-void Problem::setLoads(const Row<double>& loads) {
-  std::size_t place = 0;
-  for (std::size_t s = 0; s < unknowns_.size(); ++s) {
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(std::ssize(unknowns_[s]));
-    for (std::size_t i = 0; i < unknowns_[s].size(); ++i, ++place)
-      if (hasLoad_[place])
-        load[static_cast<Eigen::Index>(i)] = loads.data()[unknowns_[s][i]];
-    problem_.setLoad(s, load);
-  }
-}
-
-/// \param values  u
-py::dict Problem::resultOf(const fetidp::ContactSolution& solution, const Vector& values,
-                           py::ssize_t numUnknowns) const {
-  std::vector<double> u(numUnknowns, 0.0), forces, tangential;
-  const auto data = values.getData();
-  for (Teuchos::Ordinal i = 0; i < data.size(); ++i)
-    u[values.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))] = data[i];
-  if (!contact_.rows.is_null()) {
-    const RCP<Vector> force = problem_.contactForces(*solution.multiplier);
-    const auto own = force->getData();
-    forces.assign(own.begin(), own.end());
-  }
-  const auto multipliers = solution.multiplier->getData();
-  for (const decomposition::FrictionNode& node : problem_.problem().frictionNodes)
-    for (int k = 0; k + 1 < components_; ++k)
-      tangential.push_back(multipliers[node.firstTangent + k]);
-  const SolveFacts facts = solver_->facts();
-  using namespace py::literals;
-  return py::dict("u"_a = arrayOf(std::move(u)), "forces"_a = arrayOf(std::move(forces)),
-                  "tangential"_a = arrayOf(std::move(tangential)), "energy"_a = solution.energy,
-                  "status"_a = toString(facts.status), "reason"_a = facts.statusReason,
-                  "products"_a = facts.counts.hessianMultiplications, "setup_seconds"_a = facts.times.setup,
-                  "seconds"_a = seconds_, "subdomains"_a = facts.numSubdomains,
-                  "feasibility"_a = solution.feasibility, "complementarity"_a = solution.complementarity,
-                  "projected_gradient"_a = solution.relativeProjectedGradient);
-}
-
-py::dict Problem::solve(const Row<double>& loads, const std::optional<Row<double>>& gaps,
-                        const py::object& progress) {
+py::dict Problem::solve(const Row<double>& loads, const Row<double>& gaps, const py::object& progress) {
   Watch watch(comm_, progress);
   fetidp::ContactSolution solution;
   RCP<Vector> values;
@@ -186,9 +183,8 @@ py::dict Problem::solve(const Row<double>& loads, const std::optional<Row<double
     const py::gil_scoped_release noLock;
     const double began = Teuchos::Time::wallTime();
     setLoads(loads);
-    if (gaps)
-      problem_.setGap(*vectorOf(*gaps, contact_.rows->getRowMap(), "the gaps"));
     decomposition::ProblemData data = problem_.data();
+    data.setGaps(*vectorOf(gaps, rcp(new Map(gaps.size(), 0, comm_)), "the gaps"));
     if (!coefficients_.empty()) {
       data.setFrictionCoefficients(problem_.problem(), coefficients_);
       data.setFrictionBounds(problem_.problem(), bounds_);
@@ -238,7 +234,7 @@ void defineMatrices(py::module_& module) {
       .def(py::init<int, int, std::vector<std::string>>())
       .def("add", &Problem::add)
       .def("add_elements", &Problem::addElements)
-      .def("set_contact", &Problem::setContact)
+      .def("set_rows", &Problem::setRows)
       .def("set_friction", &Problem::setFriction)
       .def("complete", &Problem::complete)
       .def("solve", &Problem::solve);

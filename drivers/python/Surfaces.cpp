@@ -9,6 +9,10 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <set>
 
 namespace epafi::python {
 namespace {
@@ -44,9 +48,10 @@ py::tuple rowsOf(const CrsMatrix& matrix) {
 
 /// Rows between two surfaces by mortars, the first with the multipliers.
 /// \param points  of the nodes of all bodies
+/// \param held    of a tie unknowns that supports hold; nothing: contact
 py::dict jointOf(const std::string& name, int components, const Row<double>& points,
                  const Row<GlobalOrdinal>& first, const Row<GlobalOrdinal>& second, double distance,
-                 double gap) {
+                 double gap, const std::optional<std::set<GlobalOrdinal>>& held) {
   contact::ContactTerms terms;
   terms.name = terms.firstSurface = name;
   terms.dimension = static_cast<int>(points.shape(1));
@@ -60,12 +65,17 @@ py::dict jointOf(const std::string& name, int components, const Row<double>& poi
       point[static_cast<std::size_t>(c)] = places(node, c);
     return point;
   };
+  const contact::HeldNodes isHeld = [&](GlobalOrdinal node, const Eigen::Vector3d& direction) {
+    Eigen::Index axis = 0;
+    return direction.cwiseAbs().maxCoeff(&axis) == 1 && held->contains(node * components + axis);
+  };
   const mesh::Surface own = surfaceOf(first), other = surfaceOf(second);
+  const RCP<const Comm> comm = rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
   contact::CoupledSurfaces joint;
   {
     const py::gil_scoped_release noLock;
-    joint = contact::contactBetween(terms, {own, pointAt}, {other, pointAt},
-                                    rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)));
+    joint = held ? contact::tieBetween(terms, {own, pointAt}, {other, pointAt}, comm, isHeld)
+                 : contact::contactBetween(terms, {own, pointAt}, {other, pointAt}, comm);
   }
   const auto gaps = joint.matrix.gap->getData();
   using namespace py::literals;

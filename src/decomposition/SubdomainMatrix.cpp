@@ -131,6 +131,9 @@ void requireSound(const SubdomainMatrix& matrix, int dimension, int components, 
     requireShape(matrix.nearKernel, n, matrix.nearKernel.cols(), "the near-kernel of " + where);
   if (!matrix.coordinates.allFinite() || !matrix.nearKernel.allFinite())
     throw InputError("the coordinates or the near-kernel of " + where + " are not all finite.");
+  if (!std::all_of(matrix.stiffness.valuePtr(), matrix.stiffness.valuePtr() + matrix.stiffness.nonZeros(),
+                   [](double entry) { return std::isfinite(entry); }))
+    throw InputError("the stiffness of " + where + " has an entry that is not a finite number.");
   for (const GlobalOrdinal node : matrix.crosspoints)
     if (std::none_of(matrix.unknowns.begin(), matrix.unknowns.end(),
                      [&](GlobalOrdinal unknown) { return unknown / components == node; }))

@@ -51,8 +51,8 @@ SubdomainMatrix subdomainMatrix(const CrsMatrix& local);
 /// The point in a row of coordinates; a coordinate that the space does not have is 0.
 Point pointAt(const Eigen::MatrixXd& coordinates, Eigen::Index row);
 
-/// Checks shapes, numbers, finiteness of coordinates, and symmetry to 1e-10 of the largest entry of K^s.
-/// \throws InputError that names the subdomain `where`. Not collective.
+/// Checks shapes, numbers, that coordinates and K^s are finite, and symmetry to 1e-10 of the largest entry of
+/// K^s. \throws InputError that names the subdomain `where`. Not collective.
 void requireSound(const SubdomainMatrix& matrix, int dimension, int components, int numBodies,
                   const std::string& where);
 

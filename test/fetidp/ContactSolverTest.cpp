@@ -210,6 +210,8 @@ TEST(ContactSolverTest, LoadsAndGapsThatAreNoNumbersAreRefused) {
           gap.replaceGlobalValue(2, bad);
       });
       test::expectSays(complaint(apart), {"gap", "contact row 2"});
+      test::expectSays(test::refusal([&] { ContactSolver(Teuchos::ParameterList()).setup(problem, apart); }),
+                       {"gap", "contact row 2"});
     }
 }
 

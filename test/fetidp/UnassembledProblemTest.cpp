@@ -121,6 +121,8 @@ TEST(UnassembledProblemTest, WrongInputIsRefusedOnAllRanks) {
   expectSays(refusalAfter([](SubdomainMatrix& m) { m.unknowns[0] = -3; }), {"subdomain 0", "-3"});
   expectSays(refusalAfter([](SubdomainMatrix& m) { m.load.conservativeResize(3); }), {"load", "3 x 1"});
   expectSays(refusalAfter([](SubdomainMatrix& m) { m.coordinates(0, 0) = NAN; }), {"coordinates", "finite"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.stiffness.coeffRef(0, 0) = NAN; }),
+             {"stiffness of subdomain 0", "finite"});
   expectSays(refusalAfter([](SubdomainMatrix& m) { m.body = 2; }), {"body 2", "2 bodies"});
   expectSays(refusalAfter([](SubdomainMatrix& m) { m.body = 1; }), {"share nodes"});
   expectSays(refusalAfter([](SubdomainMatrix& m) { m.stiffness.coeffRef(0, 1) += 1; }), {"symmetric"});

@@ -208,6 +208,94 @@ class Matrices(unittest.TestCase):
             reactions = bottom.T @ solution.forces + along[::-1].T @ solution.tangential
             self.assertLess(abs(summed(unknowns, matrices, 50) @ solution.u + reactions - loads).max(), 1e-12)
 
+    def test_ties_hold_beside_contact_as_the_conditions_of_a_solution_have_it(self):
+        """A block on a floor that it may leave: its right side stays upright, d away from where it was."""
+        coordinates, unknowns, matrices = blocks(4, 4)
+        k, right = summed(unknowns, matrices, 50), 8 + 10 * numpy.arange(5)
+        sole = scipy.sparse.csr_matrix((-numpy.ones(5), (numpy.arange(5), 1 + 2 * numpy.arange(5))), shape=(5, 50))
+        upright = scipy.sparse.csr_matrix((numpy.ones(5), (numpy.arange(5), right)), shape=(5, 50))
+        loads = numpy.zeros(50)
+        loads[41:50:2] = [-0.1, -0.1, 0, 0.05, 0.1]
+        for parts in (1, 3):
+            problem = epafi.Problem(2)
+            problem.add_elements(unknowns, matrices, coordinates, parts=parts, held={10 * i: 0.0 for i in range(5)})
+            problem.set_contact(sole, 0.01)
+            problem.set_ties(upright)
+            setups = set()
+            for d in (0.0, numpy.linspace(0.1, 0.2, 5)):
+                found = problem.solve(loads, tie_gaps=d, tolerance=1e-12)
+                setups.add(found.setup_seconds)
+                numpy.testing.assert_allclose(found.u[right], d * numpy.ones(5), atol=1e-10)
+                rest = k @ found.u + sole.T @ found.forces + upright.T @ found.tie_forces - loads
+                self.assertLess(abs(numpy.delete(rest, 10 * numpy.arange(5))).max(), 1e-10)
+                self.assertGreaterEqual(found.forces.min(), 0)
+                self.assertLess((sole @ found.u).max(), 0.01 + 1e-10)
+                self.assertLess(abs(found.forces @ (0.01 - sole @ found.u)), 1e-11)
+            self.assertTrue(0 < (found.forces > 0).sum() < 5)
+            self.assertEqual(len(setups), 1)
+
+    def test_ties_alone_are_a_linear_problem(self):
+        coordinates, unknowns, matrices = blocks(3, 3)
+        k, free = summed(unknowns, matrices, 32).toarray(), numpy.arange(8, 32)
+        rows, d, loads = numpy.random.default_rng(1).normal(size=(3, 32)), [0.1, -0.2, 0.3], numpy.linspace(0, 1, 32)
+        problem = epafi.Problem(2)
+        problem.add_elements(unknowns, matrices, coordinates, parts=2, held=dict.fromkeys(range(8), 0.0))
+        problem.set_ties(rows, d)
+        found = problem.solve(loads, tolerance=1e-13)
+        own = rows[:, free]
+        exact = numpy.linalg.solve(numpy.block([[k[8:, 8:], own.T], [own, numpy.zeros((3, 3))]]), numpy.append(loads[8:], d))
+        numpy.testing.assert_allclose(numpy.append(found.u[free], found.tie_forces), exact, atol=1e-9)
+
+    def test_bodies_meshed_apart_are_stretched_evenly_where_they_are_tied(self):
+        """By a traction of 1, which supports on symmetry planes do not hinder: u of the last axis is the height."""
+        for d, counts in ((2, ([6, 4], [4, 3])), (3, ([3, 3, 2], [2, 4, 2]))):
+            problem, sides, loads = epafi.Problem(d), [], []
+            for number, count in enumerate(counts):
+                low, high = numpy.zeros(d), numpy.ones(d)
+                low[-1], high[-1] = number, number + 1.0
+                places, cells, unknowns, matrices = solid(count, low, high)
+                held = {int(d * node + k): 0.0 for k in range(d) for node in numpy.flatnonzero(places[:, k] == 0)}
+                own = problem.add_elements(unknowns, matrices, places, held=held, parts=1 + number)
+                sides.append((own, on_side(places, count, 1.0)[0], cells))
+                loads.append(numpy.outer(on_side(places, count, 2.0)[1] if number else 0 * places[:, 0], numpy.eye(d)[-1]).ravel())
+            joint = problem.joint(*sides, tied=True)
+            problem.set_ties(joint.rows, joint.gaps)
+            found = problem.solve(numpy.concatenate(loads), tolerance=1e-13)
+            u, heights = found.u.reshape(-1, d), numpy.concatenate([body[:, -1] for body in problem._points])
+            with self.subTest(dimension=d):
+                numpy.testing.assert_allclose(u, numpy.outer(heights, numpy.eye(d)[-1]), atol=1e-10)
+                numpy.testing.assert_allclose(abs(found.tie_forces @ joint.directions), numpy.eye(d)[-1], atol=1e-10)
+
+    def test_numbers_that_are_none_are_refused_in_a_sentence(self):
+        coordinates, nodes, matrices = membrane(2, 2)
+        k, bad = summed(nodes, matrices, 9), numpy.array([numpy.nan, *numpy.ones(8)])
+        worse = k.copy()
+        worse.data[3] = numpy.inf
+
+        def solved(add=None, contact=(numpy.eye(9), 1.0), loads=numpy.ones(9), ties=None, law={}, **more):
+            problem = epafi.Problem(2, components=1)
+            problem.add_body(**{"stiffness": k, "coordinates": coordinates, "held": {0: 0.0}, **(add or {})})
+            problem.set_contact(*contact, **law)
+            if ties:
+                problem.set_ties(*ties)
+            return problem.solve(loads, **more)
+
+        self.assertTrue(solved().converged)
+        for what, sentence in (
+                (dict(add={"stiffness": worse}), "entry 3 of a matrix's data is inf"), (dict(add={"held": {0: numpy.nan}}), "finite"),
+                (dict(add={"coordinates": numpy.column_stack([bad, bad])}), "entry 0, 0 of the coordinates is nan"),
+                (dict(contact=(numpy.diag(bad), 0)), "entry 0, 0 of a matrix is nan"), (dict(loads=bad), "entry 0 of the loads is nan"),
+                (dict(contact=(numpy.eye(9), bad)), "entry 0 of the gaps is nan"), (dict(gaps=bad), "entry 0 of the gaps is nan"),
+                (dict(law={"friction": bad}), "entry 0 of coefficients of friction is nan"),
+                (dict(law={"bound": bad}), "entry 0 of bounds of friction is nan"),
+                (dict(law={"bound": 1, "slips": numpy.nan, "tangents": numpy.eye(9)}), "entry 0 of the slips is nan"),
+                (dict(ties=(numpy.eye(2, 9, 3), [0, numpy.nan])), "entry 1 of the gaps of ties is nan"),
+                (dict(gaps=[1, 2]), "the gaps have 2 entries, but there are 9 rows")):
+            with self.subTest(sentence), self.assertRaisesRegex(epafi.InputError, sentence):
+                solved(**what)
+        with self.assertRaisesRegex(epafi.InputError, "entry 0, 0, 0 of the element matrices is nan"):
+            epafi.Problem(2, components=1).add_elements(nodes, numpy.nan * matrices, coordinates)
+
     def test_what_does_not_fit_is_refused_in_a_sentence(self):
         coordinates, nodes, matrices = membrane(2, 2)
         k = summed(nodes, matrices, 9)

@@ -51,15 +51,16 @@ class Problems(unittest.TestCase):
                 self.assertLess(contest.error(problem, second.u, reference(name).u), 1e-8)
                 self.assertLess(max(contest.residuals(problem, second).values()), 1e-7)
 
-    def test_the_default_takes_no_more_products_than_any_algorithm_by_name(self):
-        for name in ("obstacle", "coercive", "semicoercive", "channels", "tresca_block", "sheared_block", "sheared_cube"):
+    def test_no_algorithm_by_name_takes_fewer_products_than_the_default_but_for_one(self):
+        for name in ("obstacle", "coercive", "semicoercive", "regions", "channels", "two_blocks", "nafems_roller", "tresca_block",
+                     "sheared_block", "sheared_cube"):
             entries = contest.contest([load(name)], peers.ALGORITHMS)
             solved = {entry.solver: entry for entry in entries if entry.outcome == "solved"}
             with self.subTest(name):
                 self.assertEqual(len(solved) + sum(entry.outcome.startswith("unfit") for entry in entries), len(entries))
                 self.assertGreaterEqual(len(solved), 4)
                 self.assertLess(max(entry.error for entry in solved.values()), 1e-7)
-                self.assertEqual(min(entry.work for entry in solved.values()), solved["default"].work)
+                self.assertLessEqual(solved["default"].work, min(entry.work for entry in solved.values()) + 1)
         self.assertGreater(solved["fixed point"].work, solved["default"].work)  # of the cube, Coulomb's law in space
 
     def test_the_problem_without_solution_is_recognised(self):

@@ -67,10 +67,16 @@ class Programs(unittest.TestCase):
             epafi.solve_qp(numpy.eye(2), [1, 1], upper=0, equalities=([[1, 1]], [3]))
         with self.assertRaisesRegex(epafi.SolvabilityError, "Unbounded"):
             epafi.solve_qp(numpy.zeros((2, 2)), [1, 1], lower=0)
+        nan = numpy.nan
         for wrong in (dict(lower=[1, 2, 3]), dict(start=[1]), dict(discs=([[0, 5]], [1])), dict(parameters={"Tolerence": 1}),
-                      dict(preconditioner=numpy.eye(3))):
+                      dict(preconditioner=numpy.eye(3)), dict(lower=[0, nan]), dict(upper=nan), dict(start=[0, nan]),
+                      dict(discs=([[0, 1]], [nan])), dict(discs=([[0, 1]], [1], [[nan, 0]])), dict(equalities=([[1, nan]], [0])),
+                      dict(equalities=([[1, 1]], [nan])), dict(preconditioner=[[1, 0], [0, nan]])):
             with self.subTest(wrong), self.assertRaises(ValueError):
                 epafi.solve_qp(numpy.eye(2), [1, 1], **wrong)
+        for hessian, linear_term in (([[1, nan], [nan, 1]], [1, 1]), (numpy.eye(2), [1, nan])):
+            with self.assertRaisesRegex(epafi.InputError, "entry .* is nan"):
+                epafi.solve_qp(hessian, linear_term)
         with self.assertRaises(epafi.NotConverged) as caught:
             epafi.solve_qp(*string(200), lower=-0.1, parameters={"MPRGP": {"Maximum Multiplications": 5}})
         self.assertEqual(caught.exception.result.status, "MaxIterations")

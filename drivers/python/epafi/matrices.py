@@ -8,7 +8,7 @@ import numpy
 
 from . import _epafi, parameters as _parameters
 from .progress import shown
-from .qp import rows_of
+from .qp import finite, rows_of
 from .result import NotConverged
 
 
@@ -18,7 +18,8 @@ class Solution:
 
     u: numpy.ndarray  #: of all unknowns, one body after the other; 0 where a body has none
     forces: numpy.ndarray  #: of the rows of contact, >= 0, in the unit of the loads over that of B
-    tangential: numpy.ndarray  #: of rows T of friction: Ku + B' forces + T' tangential = f
+    tangential: numpy.ndarray  #: of rows T of friction
+    tie_forces: numpy.ndarray  #: of rows E of ties: Ku + B' forces + T' tangential + E' tie_forces = f
     energy: float  #: u'Ku/2 - f'u
     status: str  #: "Converged", ...
     reason: str
@@ -37,13 +38,13 @@ class Solution:
 
 @dataclasses.dataclass(eq=False)
 class Joint:
-    """Rows of contact between two surfaces, for `Problem.set_contact`; the first surface has a row a node."""
+    """Rows between two surfaces, for `Problem.set_contact`, where the first surface has one a node, or for `Problem.set_ties`."""
 
-    rows: Any  #: B, m x unknowns of all bodies, a csr_matrix of SciPy; a row's multiplier is a force
-    gaps: numpy.ndarray  #: m: distances along the normals
+    rows: Any  #: B or E, m x unknowns of all bodies, a csr_matrix of SciPy; a row's multiplier is a force
+    gaps: numpy.ndarray  #: m: distances along the normals; of ties 0
     areas: numpy.ndarray  #: m: what of the first surface (in the plane: its length) a row's force acts on
     nodes: numpy.ndarray  #: m: numbers through all bodies
-    directions: numpy.ndarray  #: m x components: towards the second surface, of length 1
+    directions: numpy.ndarray  #: m x components: of contact towards the second surface, of length 1
 
 
 def _outwards(facets: Any, cells: Any, places: numpy.ndarray) -> numpy.ndarray:
@@ -74,8 +75,16 @@ def _outwards(facets: Any, cells: Any, places: numpy.ndarray) -> numpy.ndarray:
     return numpy.where(numpy.sum(normal * inwards, axis=1)[:, None] > 0, facets[:, ::-1], facets)
 
 
+def _per_row(given: Any, count: int, what: str) -> numpy.ndarray:
+    """A number for each of so many rows, or one for all."""
+    values = numpy.ravel(numpy.asarray(given, dtype=float))
+    if len(values) not in (1, count):
+        raise _epafi.InputError(f"{what} have {len(values)} entries, but there are {count} rows")
+    return finite(numpy.broadcast_to(values, count), what)
+
+
 class Problem:
-    """Bodies with matrices of yours, min u'Ku/2 - f'u subject to Bu <= c. On this rank alone.
+    """Bodies with matrices of yours, min u'Ku/2 - f'u subject to Bu <= c and Eu = d. On this rank alone.
 
     A node has `components` unknowns, which follow each other; nodes, and so unknowns, are numbered through the bodies in the
     order in which they are added. Bodies that nothing holds are found out. Factors are made by the first solve and kept.
@@ -87,6 +96,8 @@ class Problem:
         self._bodies: list[tuple] = []
         self._contact: tuple | None = None
         self._friction: tuple | None = None
+        self._ties: tuple | None = None
+        self._gaps = 3 * [numpy.zeros(0)]  # of contact, friction and ties
         self._points: list[numpy.ndarray] = []
         self._problem: Any = None
 
@@ -97,11 +108,11 @@ class Problem:
 
     def _require_unsolved(self) -> None:
         if self._problem is not None:
-            raise _epafi.InputError("the problem is solved already: bodies and contact come before the first solve")
+            raise _epafi.InputError("the problem is solved already: bodies, contact and ties come before the first solve")
 
     def _places(self, coordinates: Any, held: Mapping[int, float] | None) -> tuple:
         self._require_unsolved()
-        places = numpy.asarray(coordinates, dtype=float)
+        places = finite(numpy.asarray(coordinates, dtype=float), "the coordinates")
         if places.ndim != 2 or places.shape[1] != self.dimension:
             raise _epafi.InputError(f"coordinates have shape {places.shape}, but must have {self.dimension} columns")
         first = self.unknowns
@@ -145,7 +156,7 @@ class Problem:
         """
         places, first, held = self._places(coordinates, held)
         numbers = self._numbers(unknowns, places)
-        matrices = numpy.asarray(stiffness, dtype=float)
+        matrices = finite(numpy.asarray(stiffness, dtype=float), "the element matrices")
         if matrices.shape != (*numbers.shape, numbers.shape[-1]):
             raise _epafi.InputError(f"element matrices have shape {matrices.shape}, but their unknowns {numbers.shape}")
         if numpy.ndim(parts) == 0:
@@ -161,13 +172,22 @@ class Problem:
         self.nodes += len(places)
         return range(self.unknowns - len(places) * self.components, self.unknowns)
 
-    def joint(self, first: tuple[range, Any, Any], second: tuple[range, Any, Any], *, distance: float = numpy.inf,
-              gap: float = 0.0, name: str = "joint") -> Joint:
-        """Rows of contact between two surfaces, meshed alike or apart, by mortars with dual multipliers. Needs SciPy.
+    def _held(self) -> set[int]:
+        """Unknowns that supports hold, eliminated or not."""
+        free = numpy.zeros(self.unknowns, dtype=bool)
+        for _, _, (numbers, *_, held) in self._bodies:
+            free[numbers] = True
+            free[list(held)] = False
+        return set(numpy.flatnonzero(~free).tolist())
+
+    def joint(self, first: tuple[range, Any, Any], second: tuple[range, Any, Any], *, tied: bool = False,
+              distance: float = numpy.inf, gap: float = 0.0, name: str = "joint") -> Joint:
+        """Rows between two surfaces, meshed alike or apart, by mortars with dual multipliers. Needs SciPy.
 
         first, second  (unknowns, facets, cells): what `add_body` returned, nodes of the facets, two in the plane, three or four
                        in space, and of the body's cells, of order 1, both by their numbers in the body; facets may be
                        seen from either side. The first, best the finer and softer one, has the rows
+        tied           rows for `set_ties` that hold displacements equal, all components but those that supports hold
         distance       nodes farther from the other surface get no row
         gap            added to the distances
         """
@@ -179,7 +199,8 @@ class Problem:
             if body >= len(self._points) or len(unknowns) != len(self._points[body]) * self.components:
                 raise _epafi.InputError(f"{unknowns} are not the unknowns of a body of this problem")
             sides.append(starts[body] + _outwards(facets, cells, self._points[body]))
-        found = _epafi.joint_of(name, self.components, numpy.concatenate(self._points), *sides, distance, gap)
+        held = self._held() if tied else None
+        found = _epafi.joint_of(name, self.components, numpy.concatenate(self._points), *sides, distance, gap, held)
         indptr, indices, data = found.pop("rows")
         return Joint(scipy.sparse.csr_matrix((data, indices, indptr), shape=(len(indptr) - 1, self.unknowns)), **found)
 
@@ -196,9 +217,10 @@ class Problem:
         nodes     with `tangents`: rows of B that have friction, if not all; friction and bound are theirs then
         """
         self._require_unsolved()
-        matrix, gaps = rows_of(rows), numpy.atleast_1d(numpy.asarray(gaps, dtype=float))
+        matrix = rows_of(rows)
         count = len(matrix[0]) - 1
-        self._contact, self._friction = (matrix, numpy.broadcast_to(gaps, count) if len(gaps) == 1 else gaps, self.unknowns), None
+        self._gaps[:2] = _per_row(gaps, count, "the gaps"), numpy.zeros(0)
+        self._contact, self._friction = (False, matrix, self._gaps[0], self.unknowns), None
         if friction is None and bound is None:
             return
         if tangents is None and (nodes is not None or numpy.any(slips)):
@@ -208,26 +230,38 @@ class Problem:
             raise _epafi.InputError("nodes with friction are numbers of rows: integers")
         if len(numpy.unique(nodes)) < len(nodes) or not ((nodes >= 0) & (nodes < count)).all():
             raise _epafi.InputError(f"nodes with friction are different rows of contact from 0 to {count - 1}")
-        of_nodes = [numpy.broadcast_to(numpy.asarray(0.0 if law is None else law, dtype=float), len(nodes)).tolist()
-                    for law in (friction, bound)]
+        of_nodes = [_per_row(0 if law is None else law, len(nodes), what).tolist()
+                    for law, what in ((friction, "coefficients of friction"), (bound, "bounds of friction"))]
         along = None if tangents is None else rows_of(tangents)
-        given = None if along is None else (along, numpy.broadcast_to(numpy.asarray(slips, dtype=float), len(along[0]) - 1))
-        self._friction = (given, nodes.tolist(), *of_nodes, self.unknowns)
+        self._gaps[1] = _per_row(slips, len(nodes) * (self.components - 1) if along is None else len(along[0]) - 1, "the slips")
+        self._friction = (None if along is None else (along, self._gaps[1]), nodes.tolist(), *of_nodes, self.unknowns)
 
-    def solve(self, loads: Any, *, gaps: Any = None, tolerance: float = 1e-6, parameters: Mapping[str, Any] | None = None,
-              progress: bool | Callable | None = None, check: bool = True) -> Solution:
-        """Solves for loads (of all unknowns) and, if given, new gaps. Later calls need no new factors, and start from the last
-        solution; tolerance and parameters (those of `Solver` in docs/parameters.md) are the first call's.
+    def set_ties(self, rows: Any, gaps: Any = 0) -> None:
+        """Eu = d: E, rows x unknowns of all bodies, and d, of each row or one for all; rows may depend on each other."""
+        self._require_unsolved()
+        matrix = rows_of(rows)
+        self._gaps[2] = _per_row(gaps, len(matrix[0]) - 1, "the gaps of ties")
+        self._ties = (True, matrix, self._gaps[2], self.unknowns)
+
+    def solve(self, loads: Any, *, gaps: Any = None, slips: Any = None, tie_gaps: Any = None, tolerance: float = 1e-6,
+              parameters: Mapping[str, Any] | None = None, progress: bool | Callable | None = None,
+              check: bool = True) -> Solution:
+        """Solves for loads (of all unknowns) and, if given, new gaps of contact and ties, and slips. Later calls need no new
+        factors, and start from the last solution; tolerance and parameters (those of `Solver` in docs/parameters.md) are the
+        first call's.
 
         Raises as `epafi.solve`; NotConverged has the Solution.
         """
-        loads = numpy.asarray(loads, dtype=float)
+        loads = finite(numpy.asarray(loads, dtype=float), "the loads")
         if loads.shape != (self.unknowns,):
             raise _epafi.InputError(f"loads have shape {loads.shape}, but there are {self.unknowns} unknowns")
+        for kind, (given, what) in enumerate(((gaps, "the gaps"), (slips, "the slips"), (tie_gaps, "the gaps of ties"))):
+            if given is not None:
+                self._gaps[kind] = _per_row(given, len(self._gaps[kind]), what)
         if self._problem is None:
             self._problem = self._made({"Tolerance": tolerance, **(parameters or {})})
         with shown(progress, None) as tell:
-            solution = Solution(**self._problem.solve(loads, None if gaps is None else numpy.asarray(gaps, dtype=float), tell))
+            solution = Solution(**self._problem.solve(loads, numpy.concatenate(self._gaps), tell))
         if check and not solution.converged:
             raise NotConverged(solution)
         return solution
@@ -237,8 +271,9 @@ class Problem:
         problem = _epafi.Problem(self.dimension, self.components, names)
         for number, (kind, _, arguments) in enumerate(self._bodies):
             getattr(problem, kind)(number, *arguments)
-        if self._contact is not None:
-            problem.set_contact(*self._contact)
+        for rows in (self._contact, self._ties):
+            if rows is not None:
+                problem.set_rows(*rows)
         if self._friction is not None:
             problem.set_friction(*self._friction)
         problem.complete(_parameters.xml(parameters, _epafi.solver_schema(), "Solver"))

@@ -55,8 +55,6 @@ def fetidp(problem: ContactProblem, algorithm: str, parameters: Mapping[str, Any
     """`epafi.Problem`, each body whole."""
     if problem.is_bounded:
         raise Unfit("bounds")
-    if problem.contacts < len(problem.gap):
-        raise Unfit("equations")
     if (problem.direction.max(axis=1) < 1).any():
         raise Unfit("turned axes")
     dimension = 3 if numpy.ptp(problem.coordinates[:, 2]) > 0 else 2
@@ -72,13 +70,16 @@ def fetidp(problem: ContactProblem, algorithm: str, parameters: Mapping[str, Any
                                      shape=(len(places), solver.unknowns))
     friction = dict(friction=problem.friction, bound=problem.friction_bound, tangents=problem.tangent @ spread,
                     slips=problem.tangent_gap, nodes=problem.friction_row) if len(problem.friction_row) else {}
-    solver.set_contact(problem.constraint @ spread, problem.gap, **friction)
+    rows, contacts = problem.constraint @ spread, problem.contacts
+    solver.set_contact(rows[:contacts], problem.gap[:contacts], **friction)
+    if contacts < len(problem.gap):
+        solver.set_ties(rows[contacts:], problem.gap[contacts:])
     try:
         found = solver.solve(spread.T @ problem.load, tolerance=TOLERANCE,
                              parameters={"Algorithm": algorithm, "Equilibrium Tolerance": TOLERANCE, **parameters})
     except SolvabilityError as error:
         raise (ManySolutions if str(error).startswith("not unique") else NoSolution)(str(error)) from error
-    return Answer(found.u[places], found.forces, found.tangential, found.products, "products")
+    return Answer(found.u[places], numpy.append(found.forces, found.tie_forces), found.tangential, found.products, "products")
 
 
 def program(problem: ContactProblem, algorithm: str, parameters: Mapping[str, Any] = MappingProxyType({}),

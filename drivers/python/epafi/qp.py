@@ -30,15 +30,24 @@ class QpResult:
         return self.status == "Converged"
 
 
+def finite(values: Any, what: str) -> Any:
+    """The same array. Raises InputError where an entry is none."""
+    if not numpy.isfinite(numpy.sum(values)) and not numpy.isfinite(values).all():  # the first is quick
+        place = numpy.unravel_index(numpy.flatnonzero(~numpy.isfinite(values))[0], numpy.shape(values))
+        where = ", ".join(map(str, map(int, place)))
+        raise _epafi.InputError(f"entry {where} of {what} is {values[place]}, which is not a finite number")
+    return values
+
+
 def rows_of(matrix: Any) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]:
-    """indptr, indices and data of a SciPy matrix, or of a dense array."""
+    """indptr, indices and data of a SciPy matrix, or of a dense array; all numbers are finite."""
     if hasattr(matrix, "tocsr"):
         matrix = matrix.tocsr()
         if not matrix.has_canonical_format:
             matrix = matrix.copy()
             matrix.sum_duplicates()
-        return matrix.indptr, matrix.indices, matrix.data
-    matrix = numpy.atleast_2d(numpy.asarray(matrix, dtype=float))
+        return matrix.indptr, matrix.indices, finite(matrix.data, "a matrix's data")
+    matrix = finite(numpy.atleast_2d(numpy.asarray(matrix, dtype=float)), "a matrix")
     row, column = numpy.nonzero(matrix)
     return numpy.searchsorted(row, numpy.arange(len(matrix) + 1)), column, matrix[row, column]
 

@@ -66,6 +66,7 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
       sums[0].add(next[i] != on[i] ? 1.0 : 0.0);
       sums[1].add(1 - next[i]);
       sums[2].add((x[i] - inside[i]) * (x[i] - inside[i]));
+      sums[4].add(x[i] * x[i]);
     }
     sums[0].add(isSameFace() ? 0.0 : 1.0);
     sums[3].add(static_cast<double>(next_.followers.size()));
@@ -78,6 +79,12 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
       hasMovingBoundary() && on_.stiffness() * std::sqrt(reduction_.sum(2)) > most * on_.gradientNorm();
   if (reduction_.sum(0) == 0 && !hasMoved)
     return false;
+  // g as CG updates it will do where the tolerance is far from its round-off.
+  constexpr double roundOff = 1e3 * std::numeric_limits<double>::epsilon();
+  const bool isKnown =
+      !hasMovingBoundary() && reduction_.sum(2) == 0 &&
+      enough() >= roundOff * (objective_.norm() * std::sqrt(reduction_.sum(4)) + objective_.linearNorm());
+  point_ = isKnown ? FaceIteration::Point::reached : FaceIteration::Point::elsewhere;
   copy(inside_, on_.x);
   copy(next_, on_.face);
   if (program_.setAt)

@@ -71,8 +71,8 @@ private:
   double faceReduction_;
   double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled
   long long numActive_ = 0;
-  bool isAtOrigin_ = false; ///< where the method starts
-  int numLeft_ = 0;         ///< how often x has left Ω along what has no curvature
+  FaceIteration::Point point_ = FaceIteration::Point::elsewhere; ///< where the next face is entered
+  int numLeft_ = 0; ///< how often x has left Ω along what has no curvature
 };
 
 } // namespace epafi::qp

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace epafi::qp {
 namespace {
@@ -37,7 +38,7 @@ ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& program, const Ve
           counts_),
       start_(start, Teuchos::Copy), best_(start, Teuchos::Copy), inside_(objective_.map()),
       next_(objective_.map()), work_(objective_.map()), fixed_(objective_.map()),
-      reduction_(objective_.map()->getComm(), 4), faceReduction_(parameters.faceReduction) {
+      reduction_(objective_.map()->getComm(), 5), faceReduction_(parameters.faceReduction) {
   objective_.setLinearTerm(*program.linearTerm, 0);
   if (tolerances.error != nullptr)
     watch_.emplace(*tolerances.error);
@@ -57,7 +58,8 @@ ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& program, const Ve
     on_.face.followers.clear();
   if (program_.setAt)
     set_->fixedIndicator(fixed_);
-  isAtOrigin_ = on_.x.normInf() == 0;
+  if (on_.x.normInf() == 0)
+    point_ = FaceIteration::Point::origin;
 }
 
 Status ActiveSetIteration::run(Observer* observer) {
@@ -76,7 +78,8 @@ Status ActiveSetIteration::settle() {
   const int mostIdle = program_.setAt ? mostIdleWithMovingSet : maxIdleFaces;
   for (int faces = 0; faces < maxFaces && numIdle <= mostIdle; ++faces) {
     copy(on_.x, inside_);
-    on_.enter(isAtOrigin_ && faces == 0); // Bx = c, g afresh
+    const FaceIteration::Point point = std::exchange(point_, FaceIteration::Point::elsewhere);
+    on_.enter(point); // Bx = c, g afresh if x has moved
     gradient_ = on_.gradientNorm();
     record(faces == 0 ? StepKind::start : StepKind::expansion);
     if (!std::isfinite(gradient_))
@@ -86,8 +89,11 @@ Status ActiveSetIteration::settle() {
         break;
       continue;
     }
-    if (isSolved())
-      return Status::converged;
+    if (isSolved()) {
+      if (point != FaceIteration::Point::reached)
+        return Status::converged;
+      continue; // the certificate's gradient is computed afresh
+    }
     numIdle = gradient_ < 0.9 * least ? 0 : numIdle + 1;
     if (std::isinf(least)) {
       highest = on_.objective();

@@ -31,17 +31,12 @@ FaceIteration::FaceIteration(ScaledObjective& objective, RCP<const Operator> m,
       rows_(static_cast<std::size_t>(equality_.numRows())), multiplier_(rows_.size()),
       missing_(rows_.size()) {}
 
-void FaceIteration::enter(bool isOrigin) {
+void FaceIteration::enter(Point point) {
   equality_.setFace(face);
-  moveOntoEquality();
-  if (isOrigin && residual_ == 0) { // and so it has stayed: no product
-    image_.putScalar(0.0);
-    f_ = objective_.constant();
-  } else {
-    objective_.multiply(x, image_);
-    f_ = objective_.evaluate(x, image_, x, p_).objective;
+  if (point != Point::reached) {
+    moveOntoEquality();
+    computeGradient(point == Point::origin && residual_ == 0); // and so it has stayed
   }
-  objective_.gradient(image_, g_);
   // What rows that hardly reach the face leave of a large g, the second pass takes.
   for (int pass = 0; pass < (rows_.empty() ? 1 : 2); ++pass) {
     copy(g_, r_);
@@ -66,6 +61,18 @@ void FaceIteration::enter(bool isOrigin) {
     stiffness_ = estimate();
     precondition();
   }
+}
+
+/// Ax − b and the objective.
+void FaceIteration::computeGradient(bool isOrigin) {
+  if (isOrigin) { // no product
+    image_.putScalar(0.0);
+    f_ = objective_.constant();
+  } else {
+    objective_.multiply(x, image_);
+    f_ = objective_.evaluate(x, image_, x, p_).objective;
+  }
+  objective_.gradient(image_, g_);
 }
 
 /// What follows does so here too, but for what little is left. Collective.

@@ -29,10 +29,12 @@ public:
   Vector x;  ///< the point; of the caller until `enter`
   Face face; ///< where it may move; likewise. `enter` gives its tangents their curvature
 
-  /// x moves onto Bx = c within the face, and g is computed afresh. One product, or none at the origin.
-  /// Collective.
-  /// \param isOrigin  whether x = 0
-  void enter(bool isOrigin = false);
+  /// Where x is on entering a face: at 0, where steps have left it, or elsewhere.
+  enum class Point { origin, reached, elsewhere };
+  /// x moves onto Bx = c within the face, and g is computed afresh, by one product; none at the origin, or
+  /// where x was reached: it is on Bx = c, and g is that of the last step. Nothing may be bent then, and the
+  /// last face has to be part of this one but for entries that are at bounds. Collective.
+  void enter(Point point = Point::elsewhere);
   /// One step. One product, one application of M, two messages; where something follows two more, five more
   /// with rows. Returns why there can be none: unbounded where there is no curvature, since the face has no
   /// minimum or round-off allows no better one. Collective.
@@ -79,6 +81,7 @@ private:
   std::optional<Status> conjugateStep();
   std::optional<Status> followingStep();
   void moveOntoEquality();
+  void computeGradient(bool isOrigin);
   void makeFollowingDirection();
   void precondition();
   void applyPreconditioner();

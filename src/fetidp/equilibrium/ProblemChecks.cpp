@@ -15,6 +15,15 @@ namespace {
 using decomposition::DecomposedProblem;
 using decomposition::Subdomain;
 
+/// "contact row 3", counted among its own kind.
+[[nodiscard]] std::string nameOf(const DecomposedProblem& problem, decomposition::MultiplierNumber row) {
+  constexpr const char* names[] = {"contact", "friction", "tied", "gluing"};
+  const int kind = static_cast<int>(problem.kindOf(row));
+  const GlobalOrdinal first[] = {0, problem.numInequalities, problem.firstTie(),
+                                 problem.firstTie() + problem.numTies};
+  return std::string(names[kind]) + " row " + std::to_string(row - first[kind]);
+}
+
 [[nodiscard]] std::string bodyOf(const DecomposedProblem& problem, const Subdomain& subdomain) {
   return "body '" + problem.bodies[subdomain.body].name + "'";
 }
@@ -31,14 +40,11 @@ void requireFiniteStiffness(const DecomposedProblem& problem, const Subdomain& s
 
 void requireFiniteRows(const DecomposedProblem& problem, const Subdomain& subdomain) {
   for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
-    if (!std::isfinite(entry.coefficient)) {
-      constexpr const char* names[] = {"contact", "friction", "tied", "gluing"};
-      throw InputError(std::string(names[static_cast<int>(problem.kindOf(entry.multiplier))]) + " row " +
-                       std::to_string(problem.numberOf(entry.multiplier)) +
+    if (!std::isfinite(entry.coefficient))
+      throw InputError(nameOf(problem, problem.numberOf(entry.multiplier)) +
                        " has a coefficient in subdomain " + std::to_string(subdomain.number) + " of " +
                        bodyOf(problem, subdomain) +
                        " that is not a finite number; check what is entered in B");
-    }
 }
 
 } // namespace
@@ -80,8 +86,8 @@ void requireFiniteData(const DecomposedProblem& problem, const decomposition::Pr
     const auto gaps = data.gap().getData();
     for (LocalOrdinal row = 0; row < gaps.size(); ++row)
       if (!std::isfinite(gaps[row]))
-        throw InputError("the gap of contact row " +
-                         std::to_string(problem.multiplierMap->getGlobalElement(row)) +
+        throw InputError("the gap of " +
+                         nameOf(problem, problem.numberOf(decomposition::OwnedMultiplier(row))) +
                          " is not a finite number; check the gaps");
   });
 }
