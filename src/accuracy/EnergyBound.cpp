@@ -20,11 +20,9 @@ namespace {
 /// Only what is the same on all ranks.
 void requireCovered(const scene::Scene& scene) {
   for (const scene::Body& body : scene.bodies)
-    if (body.physics != fem::Physics::membrane && body.physics != fem::Physics::planeStrain &&
-        body.physics != fem::Physics::planeStress)
-      throw InputError(
-          "guaranteed bounds are there for membranes, plane strain and plane stress, and body '" + body.name +
-          "' is of another kind (" + toString(body.physics) + "); leave out \"Bound\"");
+    if (body.physics == fem::Physics::axisymmetric)
+      throw InputError("guaranteed bounds are not there for solids of revolution (" + toString(body.physics) +
+                       "), as body '" + body.name + "' is; leave out \"Bound\"");
 }
 
 ContactPressure contactsOf(const scene::Scene& scene, const model::Decomposition& decomposition) {
@@ -98,10 +96,13 @@ double EnergyBounds::differenceOf(const std::vector<Eigen::MatrixXd>& data,
                                   const std::vector<Eigen::MatrixXd>& displacements) const {
   AccurateSum sums[1];
   std::optional<fem::CellStress> own;
+  Eigen::MatrixXd ownStiffness;
   for (std::size_t b = 0; b < cells_.size(); ++b)
     for (std::size_t place = 0; place < cells_[b]->numOwn(); ++place)
-      sums[0].add(
-          cells_[b]->stressAt(place, own).difference(data[b].col(place), displacements[b].col(place)));
+      sums[0].add(cells_[b]
+                      ->stressAt(place, own)
+                      .difference(data[b].col(place), displacements[b].col(place),
+                                  cells_[b]->stiffnessAt(place, ownStiffness)));
   sumOverRanks(*decomposition_.problem.comm, sums);
   return sums[0].value();
 }
@@ -136,11 +137,13 @@ void EnergyBounds::addEnergies(const std::vector<Eigen::MatrixXd>& solution,
       sums[correction].add(moved.dot(stiffness * moved));
       sums[jump].add(jumps.dot(stiffness * jumps));
       const fem::CellStress& stress = cells_[b]->stressAt(place, own);
-      const double missing = missingAt(b, place), rest = stress.difference(data[b].col(place), v),
+      const double missing = missingAt(b, place), rest = stress.difference(data[b].col(place), v, stiffness),
                    with = std::sqrt(rest) + missing,
-                   reflected = moved.isZero(0)
-                                   ? with
-                                   : std::sqrt(stress.difference(data[b].col(place), mean + moved)) + missing;
+                   reflected =
+                       moved.isZero(0)
+                           ? with
+                           : std::sqrt(stress.difference(data[b].col(place), mean + moved, stiffness)) +
+                                 missing;
       sums[difference].add(rest);
       sums[whole].add(with * with);
       sums[other].add(reflected * reflected);
