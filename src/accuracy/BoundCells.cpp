@@ -107,10 +107,10 @@ void BoundCells::requireStraight() const {
     isCovered = (dimensionOf(type) == 2 ? isAffine<2> : isAffine<3>)(type, points);
   }
   if (!isCovered)
-    throw InputError(
-        "guaranteed bounds are there for triangles, parallelograms, tetrahedra and parallelepipeds "
-        "(of 8 or 27 nodes) with straight edges, all of one kind, and body '" +
-        body_.name + "' has others; leave out \"Bound\"");
+    throw InputError("guaranteed bounds are there for triangles, parallelograms, tetrahedra and "
+                     "parallelepipeds of 8 or 27 nodes, "
+                     "with straight edges and all of one kind, and body '" +
+                     body_.name + "' has others; leave out \"Bound\"");
 }
 
 FacetKey facetKey(mesh::CellType facet, std::span<const GlobalOrdinal> nodes) {

@@ -75,10 +75,11 @@ void ContactPressure::addContact(const ContactLayout& contact, const model::Deco
       for (const ContactLayout::Share& share : contact.smoothed[place])
         ofRows_[row].emplace_back(contact.firstRow + share.node, share.weight);
   }
-  std::set<FacetKey> facing;
+  std::set<std::pair<mesh::CellType, FacetKey>> facing;
   if (isTwoSided)
-    forEachFacet(*decomposition.bodies[contact.secondBody].mesh, contact.secondSurfaces,
-                 [&](mesh::CellType type, const auto& nodes) { facing.insert(facetKey(type, nodes)); });
+    forEachFacet(
+        *decomposition.bodies[contact.secondBody].mesh, contact.secondSurfaces,
+        [&](mesh::CellType type, const auto& nodes) { facing.emplace(type, facetKey(type, nodes)); });
   const mesh::Mesh& mesh = *decomposition.bodies[contact.firstBody].mesh;
   std::vector<Point> points;
   forEachFacet(mesh, contact.firstSurfaces, [&](mesh::CellType type, const auto& nodes) {
@@ -98,7 +99,7 @@ void ContactPressure::addContact(const ContactLayout& contact, const model::Deco
       if (isTwoSided)
         facet.facing.push_back(contact.secondNodes[place][0].node);
     }
-    if (isTwoSided && !facing.contains(facetKey(type, facet.facing)))
+    if (isTwoSided && !facing.contains({type, facetKey(type, facet.facing)}))
       return;
     mesh.pointsAt(nodes, points);
     facet.measure = mesh::areaVector(type, points).norm();
@@ -116,8 +117,9 @@ std::vector<double> ContactPressure::combined(const std::vector<Shares>& shares,
   return sums;
 }
 
-/// Continuous, with the least ½∫p² − Σ λ p, coefficients ≥ 0: projected Gauss-Seidel. What forces it amounts
-/// to need not be λ.
+/// Continuous, with ∫ p N_j = λ_j at nodes j as far as coefficients ≥ 0 allow: complementary to
+/// Σ_j β_i(x_j) (∫ p N_j − λ_j), by projected Gauss-Seidel. Of Bernstein's functions that is the least
+/// ½∫p² − Σ λ p. What forces it amounts to need not be λ.
 std::vector<double> ContactPressure::fit(std::span<const double> forces) {
   constexpr int sweeps = 100;
   const std::vector<double> nodal = combined(ofNodes_, forces);
@@ -127,14 +129,15 @@ std::vector<double> ContactPressure::fit(std::span<const double> forces) {
     for (const GlobalOrdinal row : facet.rows)
       measures[row] += facet.measure;
   for (const ContactFacet& facet : facets_) {
-    const Eigen::MatrixXd products = facet.measure * facet.functions().products;
+    const fem::FacetFunctions& functions = facet.functions();
+    const Eigen::MatrixXd products = facet.measure * functions.atNodes.transpose() * functions.moments;
     const std::size_t number = facet.rows.size();
     for (std::size_t i = 0; i < number; ++i)
       for (std::size_t j = 0; j < number; ++j) {
         rows[facet.rows[i]][facet.rows[j]] += products(i, j);
         // Σ λ p(x): a node's share that this facet has of what the function of i is at j
         wanted[facet.rows[i]] +=
-            facet.measure / measures[facet.rows[j]] * facet.functions().atNodes(j, i) * nodal[facet.rows[j]];
+            facet.measure / measures[facet.rows[j]] * functions.atNodes(j, i) * nodal[facet.rows[j]];
       }
   }
   for (int sweep = 0; sweep < sweeps; ++sweep)

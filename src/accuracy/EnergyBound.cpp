@@ -80,7 +80,7 @@ EnergyBound EnergyBounds::operator()(std::span<const Eigen::VectorXd> displaceme
       bound.failure = text.str();
       return bound;
     }
-    bound.steps = relaxTractions(cells_, loads, comm, 0.5 * differenceOf(data, around), data);
+    bound.steps = relaxTractions(cells_, loads, comm, around, data);
   }
   const AdmissibleDisplacement admissible = admissibleDisplacement(cells_, pressure_, comm, solution);
   bound.failure = agreedText(*comm, admissible.failure);
@@ -89,22 +89,6 @@ EnergyBound EnergyBounds::operator()(std::span<const Eigen::VectorXd> displaceme
   bound.contact = std::max(0.0, pressure_.work(admissible.slack));
   addEnergies(solution, admissible, data, bound);
   return bound;
-}
-
-/// ‖τ − σ‖² of own cells. Collective.
-double EnergyBounds::differenceOf(const std::vector<Eigen::MatrixXd>& data,
-                                  const std::vector<Eigen::MatrixXd>& displacements) const {
-  AccurateSum sums[1];
-  std::optional<fem::CellStress> own;
-  Eigen::MatrixXd ownStiffness;
-  for (std::size_t b = 0; b < cells_.size(); ++b)
-    for (std::size_t place = 0; place < cells_[b]->numOwn(); ++place)
-      sums[0].add(cells_[b]
-                      ->stressAt(place, own)
-                      .difference(data[b].col(place), displacements[b].col(place),
-                                  cells_[b]->stiffnessAt(place, ownStiffness)));
-  sumOverRanks(*decomposition_.problem.comm, sums);
-  return sums[0].value();
 }
 
 /// ‖f − mean‖ in the dual of the energy norm, by Poincaré's constant of a convex domain (L. E. Payne, H. F.

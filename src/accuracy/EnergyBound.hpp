@@ -52,8 +52,6 @@ public:
                          std::span<const Eigen::VectorXd> balanced);
 
 private:
-  [[nodiscard]] double differenceOf(const std::vector<Eigen::MatrixXd>& data,
-                                    const std::vector<Eigen::MatrixXd>& displacements) const;
   [[nodiscard]] double missingAt(std::size_t body, std::size_t place) const;
   void addEnergies(const std::vector<Eigen::MatrixXd>& solution, const AdmissibleDisplacement& admissible,
                    const std::vector<Eigen::MatrixXd>& data, EnergyBound& bound) const;

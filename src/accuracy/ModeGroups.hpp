@@ -24,6 +24,7 @@ public:
 
   [[nodiscard]] Eigen::Index most() const { return most_; }           ///< modes of a group
   [[nodiscard]] std::size_t number() const { return groups_.size(); } ///< that own cells have
+  [[nodiscard]] const Comm& comm() const { return *comm_; }
   /// Of an own cell: of its facets, then of its corners.
   [[nodiscard]] std::span<const std::size_t> of(std::size_t body, std::size_t place) const {
     return ofCells_[body][place];

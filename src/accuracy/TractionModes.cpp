@@ -1,6 +1,7 @@
 #include "epafi/accuracy/TractionModes.hpp"
 
 #include "epafi/accuracy/ModeGroups.hpp"
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
 #include <utility>
@@ -17,9 +18,10 @@ public:
       bodies_.emplace_back(body->numOwn());
   }
 
-  int relax(double difference, std::vector<Eigen::MatrixXd>& data) {
-    Eigen::MatrixXd r = -integrate(data), x = Eigen::MatrixXd::Zero(r.rows(), r.cols()), z = precondition(r),
-                    p = z, q;
+  int relax(const std::vector<Eigen::MatrixXd>& displacements, std::vector<Eigen::MatrixXd>& data) {
+    double difference = 0; // ½‖τ − σ‖²
+    Eigen::MatrixXd r = -integrate(displacements, data, difference),
+                    x = Eigen::MatrixXd::Zero(r.rows(), r.cols()), z = precondition(r), p = z, q;
     double rz = groups_.dot(r, z);
     constexpr int maxSteps = 8;
     constexpr double enough = 0.05;
@@ -47,7 +49,10 @@ public:
 
 private:
   /// Energies of the modes; returns the derivative of the energy at the data, and makes the preconditioner.
-  Eigen::MatrixXd integrate(const std::vector<Eigen::MatrixXd>& data) {
+  Eigen::MatrixXd integrate(const std::vector<Eigen::MatrixXd>& displacements,
+                            const std::vector<Eigen::MatrixXd>& data, double& difference) {
+    AccurateSum sums[1];
+    Eigen::MatrixXd ownStiffness;
     Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(most_, groups_.number());
     blocks_ = Eigen::MatrixXd::Zero(most_ * most_, groups_.number());
     constexpr double roundOff = 1e-12;
@@ -70,12 +75,16 @@ private:
           energy = bodies_[b][place - 1];
         }
         const Eigen::VectorXd slope = image * data[b].col(place);
+        sums[0].add(0.5 * stress.difference(data[b].col(place), displacements[b].col(place),
+                                            cells.stiffnessAt(place, ownStiffness)));
         for (Eigen::Index g = 0; g < std::ssize(groups); ++g) {
           derivative.col(groups[g]) += slope.segment(g * most_, most_);
           blocks_.col(groups[g]) += energy->block(g * most_, g * most_, most_, most_).reshaped();
         }
       }
     }
+    sumOverRanks(groups_.comm(), sums);
+    difference = sums[0].value();
     groups_.sum(derivative);
     groups_.sum(blocks_);
     for (Eigen::Index g = 0; g < blocks_.cols(); ++g) {
@@ -136,9 +145,9 @@ private:
 } // namespace
 
 int relaxTractions(const std::vector<std::unique_ptr<BoundCells>>& cells,
-                   const std::vector<BoundLoads>& loads, const RCP<const Comm>& comm, double difference,
-                   std::vector<Eigen::MatrixXd>& data) {
-  return TractionModes(cells, loads, comm).relax(difference, data);
+                   const std::vector<BoundLoads>& loads, const RCP<const Comm>& comm,
+                   const std::vector<Eigen::MatrixXd>& displacements, std::vector<Eigen::MatrixXd>& data) {
+  return TractionModes(cells, loads, comm).relax(displacements, data);
 }
 
 } // namespace epafi::accuracy

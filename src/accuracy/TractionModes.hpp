@@ -15,11 +15,10 @@ namespace epafi::accuracy {
 
 /// One to eight steps, until one gains less than a twentieth of what is left; each iterate is as admissible
 /// as the first. Of all bodies; edges between ranks take part.
-/// \param data  of each body's own cells, as CellStress has them; changed
-/// \param difference  ½‖τ − σ‖² of the stress that they have at first, of all bodies
+/// \param displacements  of all cells of each body \param data  of own cells, as CellStress has them; changed
 /// Returns the number of steps. Collective.
 int relaxTractions(const std::vector<std::unique_ptr<BoundCells>>& cells,
-                   const std::vector<BoundLoads>& loads, const RCP<const Comm>& comm, double difference,
-                   std::vector<Eigen::MatrixXd>& data);
+                   const std::vector<BoundLoads>& loads, const RCP<const Comm>& comm,
+                   const std::vector<Eigen::MatrixXd>& displacements, std::vector<Eigen::MatrixXd>& data);
 
 } // namespace epafi::accuracy

@@ -61,7 +61,7 @@ void integrate(CellType facet, FacetFunctions& functions) {
   const mesh::Shape<dim>& shape = mesh::referenceShape<dim>(facet);
   const mesh::Shape<dim>& part =
       mesh::referenceShape<dim>(withOrder(dim == 1 ? CellType::line : CellType::triangle, shape.order));
-  functions.moments = functions.products = Eigen::MatrixXd::Zero(shape.numNodes, shape.numNodes);
+  functions.moments = Eigen::MatrixXd::Zero(shape.numNodes, shape.numNodes);
   for (const FacetFunctions::Piece& piece : functions.pieces) {
     const auto corner = [&](std::size_t i) -> mesh::Coordinates<dim> {
       if (piece.corners[i] == numCornersOf(facet))
@@ -76,7 +76,6 @@ void integrate(CellType facet, FacetFunctions& functions) {
       const Eigen::VectorXd values = piece.values.transpose() * part.values(xi), nodal = shape.values(at);
       const double share = weight * std::abs(jacobian.determinant()) / shape.measure;
       functions.moments += share * nodal * values.transpose();
-      functions.products += share * values * values.transpose();
     }
   }
 }

@@ -32,9 +32,8 @@ struct FacetFunctions {
     Eigen::MatrixXd values;   ///< at the nodes of the piece, a column each
   };
   std::vector<Piece> pieces;
-  Eigen::MatrixXd atNodes;  ///< values at the facet's nodes, a column each
-  Eigen::MatrixXd moments;  ///< ∫ N_a β_b over the facet, by its measure
-  Eigen::MatrixXd products; ///< ∫ β_a β_b, likewise
+  Eigen::MatrixXd atNodes; ///< values at the facet's nodes, a column each
+  Eigen::MatrixXd moments; ///< ∫ N_a β_b over the facet, by its measure
 };
 
 } // namespace epafi::fem
