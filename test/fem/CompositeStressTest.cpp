@@ -59,9 +59,9 @@ Eigen::VectorXd balancedData(CellType type, const std::vector<Point>& points, Ph
   std::vector<Eigen::VectorXd> motions;
   const int components = componentsOf(physics);
   for (int i = 0; i < components; ++i) {
-    motions
-        .emplace_back(Eigen::VectorXd::Zero(std::ssize(points) * components))(
-            Eigen::seq(i, Eigen::last, components))
+    motions.emplace_back(Eigen::VectorXd::Zero(std::ssize(points) * components))
+        .reshaped(components, std::ssize(points))
+        .row(i)
         .setOnes();
     for (int j = 0; j < i; ++j) {
       Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();

