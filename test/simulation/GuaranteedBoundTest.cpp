@@ -2,6 +2,7 @@
 // they are not much larger; the same on every number of ranks; what is not covered is refused.
 
 #include "support/ElasticSample.hpp"
+#include "support/SampleCells.hpp"
 #include "support/SolidScenes.hpp"
 
 #include "epafi/accuracy/ErrorNorms.hpp"
@@ -174,6 +175,22 @@ TEST_F(GuaranteedBoundTest, HoldsInSpace) {
   expectBounds("tetrahedra, a plane", onPlane(tetrahedra, 1), 3.5);
   expectBounds("quadratic tetrahedra, two blocks", lifted(tetrahedra, 2), 3);
   expectBounds("quadratic tetrahedra, a plane", onPlane(tetrahedra, 2), 2);
+}
+
+TEST_F(GuaranteedBoundTest, HoldsForRandomLoads) {
+  if (comm->getSize() > 1)
+    GTEST_SKIP() << "bounds are the same on every number of ranks, as another test has it";
+  test::SignedRandomNumbers random(45);
+  for (int i = 0; i < 24; ++i) {
+    const test::Kind& kind = test::kinds()[i % 4];
+    const int order = 1 + i / 4 % 2;
+    Scene scene = i % 3 == 0 ? onPlane(kind, order) : lifted(kind, order, 0.24 + 0.25 * random());
+    for (scene::Body& body : scene.bodies)
+      for (SolidLoad& load : body.loads)
+        for (int c = 0; c < (load.kind == SolidLoad::Kind::pressure ? 1 : componentsOf(kind.physics)); ++c)
+          load.value.at(c) += 6 * random();
+    expectBounds("scene " + std::to_string(i) + ", " + toString(withOrder(kind.cell, order)), scene, 20);
+  }
 }
 
 /// What tolerances leave open and what quadratic edges overlap between their nodes counts.
