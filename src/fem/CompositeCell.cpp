@@ -41,11 +41,14 @@ struct Solutions {
 class Conditions {
 public:
   Conditions(Eigen::Index unknowns, Eigen::Index data) : matrix_(0, unknowns), given_(0, data) {}
-  /// Returns the first of `number` rows, in which there is nothing yet.
+  /// Returns the first of `number` rows, in which there is nothing yet. Further ones stand ready: 0 = 0.
   Eigen::Index add(Eigen::Index number) {
-    const Eigen::Index first = matrix_.rows();
-    matrix_.conservativeResizeLike(Eigen::MatrixXd::Zero(first + number, matrix_.cols()));
-    given_.conservativeResizeLike(Eigen::MatrixXd::Zero(first + number, given_.cols()));
+    const Eigen::Index first = std::exchange(used_, used_ + number);
+    if (used_ > matrix_.rows()) {
+      const Eigen::Index rows = std::max<Eigen::Index>(used_, 2 * matrix_.rows());
+      matrix_.conservativeResizeLike(Eigen::MatrixXd::Zero(rows, matrix_.cols()));
+      given_.conservativeResizeLike(Eigen::MatrixXd::Zero(rows, given_.cols()));
+    }
     return first;
   }
   Eigen::MatrixXd& matrix() { return matrix_; }
@@ -57,6 +60,7 @@ public:
   }
 
 private:
+  Eigen::Index used_ = 0;
   Eigen::MatrixXd matrix_, given_;
 };
 
