@@ -54,7 +54,8 @@ public:
 private:
   [[nodiscard]] double missingAt(std::size_t body, std::size_t place) const;
   void addEnergies(const std::vector<Eigen::MatrixXd>& solution, const AdmissibleDisplacement& admissible,
-                   const std::vector<Eigen::MatrixXd>& data, EnergyBound& bound) const;
+                   const std::vector<Eigen::MatrixXd>& data, const std::vector<Eigen::VectorXd>& squares,
+                   EnergyBound& bound) const;
 
   const model::Decomposition& decomposition_;
   std::vector<std::unique_ptr<BoundCells>> cells_;

@@ -14,11 +14,15 @@ public:
   TractionModes(const std::vector<std::unique_ptr<BoundCells>>& cells, const std::vector<BoundLoads>& loads,
                 const RCP<const Comm>& comm)
       : cells_(cells), groups_(cells, loads, comm), most_(groups_.most()) {
-    for (const auto& body : cells)
+    for (const auto& body : cells) {
       bodies_.emplace_back(body->numOwn());
+      slopes_.emplace_back(body->numOwn());
+      squares_.emplace_back(body->numOwn());
+    }
   }
 
-  int relax(const std::vector<Eigen::MatrixXd>& displacements, std::vector<Eigen::MatrixXd>& data) {
+  RelaxedEnergies relax(const std::vector<Eigen::MatrixXd>& displacements,
+                        std::vector<Eigen::MatrixXd>& data) {
     double difference = 0; // ½‖τ − σ‖²
     Eigen::MatrixXd r = -integrate(displacements, data, difference),
                     x = Eigen::MatrixXd::Zero(r.rows(), r.cols()), z = precondition(r), p = z, q;
@@ -44,7 +48,7 @@ public:
       rz = next;
     }
     apply(x, data);
-    return steps;
+    return {squares_, steps};
   }
 
 private:
@@ -75,7 +79,10 @@ private:
           energy = bodies_[b][place - 1];
         }
         const Eigen::VectorXd slope = image * data[b].col(place);
-        sums[0].add(0.5 * stress.difference(data[b].col(place), displacements[b].col(place),
+        slopes_[b][place] = slope;
+        const double square = data[b].col(place).dot(stress.energy() * data[b].col(place));
+        squares_[b][static_cast<Eigen::Index>(place)] = square;
+        sums[0].add(0.5 * stress.difference(square, data[b].col(place), displacements[b].col(place),
                                             cells.stiffnessAt(place, ownStiffness)));
         for (Eigen::Index g = 0; g < std::ssize(groups); ++g) {
           derivative.col(groups[g]) += slope.segment(g * most_, most_);
@@ -126,11 +133,14 @@ private:
     return z;
   }
 
-  void apply(const Eigen::MatrixXd& x, std::vector<Eigen::MatrixXd>& data) const {
+  void apply(const Eigen::MatrixXd& x, std::vector<Eigen::MatrixXd>& data) {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       for (std::size_t place = 0; place < bodies_[b].size(); ++place) {
         const Eigen::MatrixXd moments = groups_.moments(b, place);
-        data[b].col(place).head(moments.rows()) += moments * gathered(groups_.of(b, place), x);
+        const Eigen::VectorXd its = gathered(groups_.of(b, place), x);
+        data[b].col(place).head(moments.rows()) += moments * its;
+        squares_[b][static_cast<Eigen::Index>(place)] +=
+            2 * slopes_[b][place].dot(its) + its.dot(*bodies_[b][place] * its);
       }
   }
 
@@ -139,14 +149,17 @@ private:
   Eigen::Index most_; ///< modes of a group
   /// Of the modes of each own cell of each body, group by group.
   std::vector<std::vector<std::shared_ptr<const Eigen::MatrixXd>>> bodies_;
-  Eigen::MatrixXd blocks_; ///< inverses of those of a group alone
+  std::vector<std::vector<Eigen::VectorXd>> slopes_; ///< derivatives of ½‖τ‖² at the first data
+  std::vector<Eigen::VectorXd> squares_;             ///< ‖τ‖² of each own cell of each body
+  Eigen::MatrixXd blocks_;                           ///< inverses of those of a group alone
 };
 
 } // namespace
 
-int relaxTractions(const std::vector<std::unique_ptr<BoundCells>>& cells,
-                   const std::vector<BoundLoads>& loads, const RCP<const Comm>& comm,
-                   const std::vector<Eigen::MatrixXd>& displacements, std::vector<Eigen::MatrixXd>& data) {
+RelaxedEnergies relaxTractions(const std::vector<std::unique_ptr<BoundCells>>& cells,
+                               const std::vector<BoundLoads>& loads, const RCP<const Comm>& comm,
+                               const std::vector<Eigen::MatrixXd>& displacements,
+                               std::vector<Eigen::MatrixXd>& data) {
   return TractionModes(cells, loads, comm).relax(displacements, data);
 }
 

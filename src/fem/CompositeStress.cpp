@@ -50,22 +50,18 @@ Eigen::MatrixXd piolaOf(const Eigen::MatrixXd& f, int components, int numFluxes)
 }
 
 template <int dim>
-void mapTo(CellType type, std::span<const Point> points, Eigen::MatrixXd& corners, Eigen::MatrixXd& jacobian,
-           Eigen::MatrixXd& gradients, std::vector<Eigen::MatrixXd>& through, int components) {
-  const mesh::Shape<dim>& shape = mesh::referenceShape<dim>(type);
-  const mesh::NodalColumns<dim> relative = mesh::relativeCorners<dim>(points);
-  const mesh::ElementMap<dim> map(relative, shape.centreSample());
-  corners = relative;
-  jacobian = map.jacobian();
-  gradients = map.gradients(shape.centreSample());
+Eigen::MatrixXd mapTo(CellType type, std::span<const Point> points, int components,
+                      std::vector<Eigen::MatrixXd>& through) {
+  const mesh::NodalColumns<dim> corners = mesh::relativeCorners<dim>(points);
   for (const mesh::Facet& facet : facetsOf(type)) {
     mesh::NodalColumns<dim> its(dim, facet.size());
     for (int i = 0; i < std::ssize(facet); ++i)
-      its.col(i) = relative.col(facet[i]);
+      its.col(i) = corners.col(facet[i]);
     through.push_back(throughFacet(
         mesh::facetNormal<dim - 1>(its, mesh::referenceShape<dim - 1>(facet.type).centreSample()),
         components));
   }
+  return mesh::ElementMap<dim>(corners, mesh::referenceShape<dim>(type).centreSample()).jacobian();
 }
 
 } // namespace
@@ -73,8 +69,7 @@ void mapTo(CellType type, std::span<const Point> points, Eigen::MatrixXd& corner
 CellStress::CellStress(CellType type, std::span<const Point> points, Physics physics,
                        const Material& material)
     : cell_(&CompositeCell::of(type, componentsOf(physics))), law_(lawOf(physics, material)) {
-  (cell_->dimension == 2 ? mapTo<2> : mapTo<3>)(type, points, corners_, jacobian_, centreGradients_, through_,
-                                                cell_->components);
+  jacobian_ = (cell_->dimension == 2 ? mapTo<2> : mapTo<3>)(type, points, cell_->components, through_);
   inverse_ = jacobian_.inverse();
 }
 
@@ -121,7 +116,7 @@ Eigen::VectorXd CellStress::stressOf(const Eigen::MatrixXd& gradient) const {
 Eigen::VectorXd CellStress::tractions(const Eigen::VectorXd& displacements) const {
   const Eigen::Index dimension = cell_->dimension, perFacet = cell_->facetShares.rows();
   const Eigen::MatrixXd slopes =
-      displacements.reshaped(cell_->components, corners_.cols()) * cell_->facetGradients.transpose();
+      displacements.reshaped(cell_->components, cell_->shares.size()) * cell_->facetGradients.transpose();
   Eigen::MatrixXd result(cell_->components, cell_->numFacets * cell_->perFacet),
       stresses(cell_->numFluxes, perFacet);
   for (Eigen::Index k = 0; k < cell_->numFacets; ++k) {
@@ -133,27 +128,19 @@ Eigen::VectorXd CellStress::tractions(const Eigen::VectorXd& displacements) cons
   return result.reshaped();
 }
 
-/// As the data are in balance, ∫ τ:ε(v) is their work at v, and ‖τ − σ‖² = ‖τ‖² − 2∫ τ:ε(u) + ‖σ‖²: of what
-/// is left when the even stress at the centre is taken from both, lest rounding of large numbers remain.
-double CellStress::difference(const Eigen::VectorXd& data, const Eigen::VectorXd& displacements,
-                              const Eigen::MatrixXd& stiffness) const {
+/// As the data are in balance, ∫ τ:ε(v) is their work at v, and ‖τ − σ‖² = ‖τ‖² − 2∫ τ:ε(u) + ‖σ‖².
+double CellStress::difference(double energy, const Eigen::VectorXd& data,
+                              const Eigen::VectorXd& displacements, const Eigen::MatrixXd& stiffness) const {
   const Eigen::Index components = cell_->components;
-  const auto nodal = displacements.reshaped(components, corners_.cols());
-  const Eigen::MatrixXd gradient = nodal * centreGradients_.transpose(),
-                        rest = nodal.colwise() - (nodal.col(0)) - gradient * corners_;
-  const Eigen::VectorXd even = stressOf(gradient), sums = cell_->facetShares.colwise().sum(),
-                        u = rest.reshaped();
-  Eigen::VectorXd left = data;
-  double work = left.tail(components).dot(rest * cell_->shares) * jacobian_.determinant();
+  const auto nodal = displacements.reshaped(components, cell_->shares.size());
+  double work = data.tail(components).dot(nodal * cell_->shares) * jacobian_.determinant();
   Eigen::Index at = 0;
-  for (int k = 0; k < cell_->numFacets; ++k) {
-    const Eigen::VectorXd traction = through_[k] * even;
-    for (Eigen::Index a = 0; a < cell_->perFacet; ++a, at += components) {
-      left.segment(at, components) -= sums[a] * traction;
-      work += left.segment(at, components).dot(rest.col(facetsOf(cell_->type)[k][a]));
+  for (const mesh::Facet& facet : facetsOf(cell_->type))
+    for (const int node : facet) {
+      work += data.segment(at, components).dot(nodal.col(node));
+      at += components;
     }
-  }
-  return std::max(0.0, left.dot(energy() * left) - 2 * work + u.dot(stiffness * u));
+  return std::max(0.0, energy - 2 * work + displacements.dot(stiffness * displacements));
 }
 
 } // namespace epafi::fem

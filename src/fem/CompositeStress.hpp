@@ -27,18 +27,18 @@ public:
   /// Moments of the tractions of the stress of displacements at the nodes.
   [[nodiscard]] Eigen::VectorXd tractions(const Eigen::VectorXd& displacements) const;
   /// ∫ (τ − σ):C⁻¹:(τ − σ), σ the stress of displacements at the nodes, τ that of energy(). Precondition: the
-  /// data are in balance. \param stiffness  of the element
-  [[nodiscard]] double difference(const Eigen::VectorXd& data, const Eigen::VectorXd& displacements,
+  /// data are in balance. \param energy  dᵀEd \param stiffness  of the element
+  [[nodiscard]] double difference(double energy, const Eigen::VectorXd& data,
+                                  const Eigen::VectorXd& displacements,
                                   const Eigen::MatrixXd& stiffness) const;
 
 private:
   [[nodiscard]] Eigen::VectorXd stressOf(const Eigen::MatrixXd& gradient) const;
 
   const CompositeCell* cell_;
-  Eigen::MatrixXd corners_;                                    ///< nodes less the first one, a column each
-  Eigen::MatrixXd jacobian_, inverse_, centreGradients_, law_; ///< D of strains
-  std::vector<Eigen::MatrixXd> through_;                       ///< each facet
-  mutable Eigen::MatrixXd energy_;                             ///< made when it is asked for
+  Eigen::MatrixXd jacobian_, inverse_, law_; ///< D of strains
+  std::vector<Eigen::MatrixXd> through_;     ///< each facet
+  mutable Eigen::MatrixXd energy_;           ///< made when it is asked for
 };
 
 } // namespace epafi::fem
