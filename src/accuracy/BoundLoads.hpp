@@ -1,7 +1,7 @@
 #pragma once
 
-/// What acts on a body as guaranteed bounds need it: tractions on facets, and a load per area or volume in each
-/// element with what a constant leaves out of it.
+/// What acts on a body as guaranteed bounds need it: tractions on facets, and in each element a load per area
+/// or volume with what a constant leaves out of it.
 
 #include "epafi/accuracy/BoundCells.hpp"
 

@@ -185,8 +185,8 @@ TEST(CompositeStressTest, BalancesAllDataThatAreInBalance) {
       (dimensionOf(type) == 2 ? expectBalance<2> : expectBalance<3>)(type, physics);
 }
 
-/// By Prager and Synge: the stress of a quadratic displacement is linear, balances the load that its divergence
-/// is, and has the least energy.
+/// The stress of a quadratic displacement is linear, and by Prager and Synge the one of least energy among
+/// those that balance its divergence.
 TEST(CompositeStressTest, FindsTheStressOfAQuadraticDisplacement) {
   for (const CellType type : types)
     for (const Physics physics : allPhysics(type)) {
