@@ -42,18 +42,18 @@ std::vector<double> slackOf(const std::vector<std::unique_ptr<BoundCells>>& cell
   const std::size_t numRows = contact.gaps().size();
   std::vector<double> sums(4 * numRows, 0.0); // jump and number of ranks, of both sides
   std::vector<char> isSeen(2 * numRows, 0);
-  for (const ContactEdge& edge : contact.edges())
-    for (std::size_t i = 0; i < edge.rows.size(); ++i)
+  for (const ContactFacet& facet : contact.facets())
+    for (std::size_t i = 0; i < facet.rows.size(); ++i)
       for (const std::size_t side : {0U, 1U}) {
-        if (side == 1 && edge.second < 0)
+        if (side == 1 && facet.second < 0)
           continue;
-        const std::size_t row = edge.rows[i];
-        const int body = side == 0 ? edge.first : edge.second;
-        const int node = cells[body]->localOf(side == 0 ? edge.nodes[i] : edge.facing[i]);
+        const std::size_t row = facet.rows[i];
+        const int body = side == 0 ? facet.first : facet.second;
+        const int node = cells[body]->localOf(side == 0 ? facet.nodes[i] : facet.facing[i]);
         if (node < 0 || isSeen[2 * row + side] != 0)
           continue;
         isSeen[2 * row + side] = 1;
-        sums[4 * row + 2 * side] = edge.direction.dot(values[body].col(node));
+        sums[4 * row + 2 * side] = facet.direction.dot(values[body].col(node));
         sums[4 * row + 2 * side + 1] = 1;
       }
   sumOverRanks(*comm, std::span(sums));
@@ -103,24 +103,24 @@ AdmissibleDisplacement admissibleDisplacement(const std::vector<std::unique_ptr<
   result.means = atCells(cells, values);
   const std::vector<double> lack = contact.lacking(slackOf(cells, values, contact, comm));
   std::vector<char> isDone(lack.size(), 0);
-  for (const ContactEdge& edge : contact.edges())
-    for (std::size_t i = 0; i < edge.rows.size(); ++i) {
-      const std::size_t row = edge.rows[i];
+  for (const ContactFacet& facet : contact.facets())
+    for (std::size_t i = 0; i < facet.rows.size(); ++i) {
+      const std::size_t row = facet.rows[i];
       if (lack[row] == 0 || isDone[row] != 0)
         continue;
       isDone[row] = 1;
-      const bool firstMoves = !isHeld(*cells[edge.first], edge.nodes[i], edge.direction),
+      const bool firstMoves = !isHeld(*cells[facet.first], facet.nodes[i], facet.direction),
                  secondMoves =
-                     edge.second >= 0 && !isHeld(*cells[edge.second], edge.facing[i], edge.direction);
+                     facet.second >= 0 && !isHeld(*cells[facet.second], facet.facing[i], facet.direction);
       if (!firstMoves && !secondMoves)
         result.failure = "bodies penetrate between nodes where supports hold both of them";
-      const Eigen::VectorXd way = (firstMoves && secondMoves ? 0.5 : 1.0) * lack[row] * edge.direction;
-      if (const int node = cells[edge.first]->localOf(edge.nodes[i]); firstMoves && node >= 0)
-        values[edge.first].col(node) -= way;
+      const Eigen::VectorXd way = (firstMoves && secondMoves ? 0.5 : 1.0) * lack[row] * facet.direction;
+      if (const int node = cells[facet.first]->localOf(facet.nodes[i]); firstMoves && node >= 0)
+        values[facet.first].col(node) -= way;
       if (!secondMoves)
         continue;
-      if (const int node = cells[edge.second]->localOf(edge.facing[i]); node >= 0)
-        values[edge.second].col(node) += way;
+      if (const int node = cells[facet.second]->localOf(facet.facing[i]); node >= 0)
+        values[facet.second].col(node) += way;
     }
   result.slack = slackOf(cells, values, contact, comm);
   double largest = 0;

@@ -10,6 +10,7 @@
 #include <Tpetra_MultiVector.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <unordered_set>
 
@@ -76,34 +77,56 @@ void BoundCells::numberNodes() {
     around_[next[locals_[i]]++] = {i / perElement_, static_cast<int>(i % perElement_)};
 }
 
-void BoundCells::requireStraight() const {
+namespace {
+
+template <int dim>
+bool isAffine(mesh::CellType type, std::span<const Point> points) {
   constexpr double roundOff = 1e-9;
-  const mesh::Shape<2>& shape = mesh::referenceShape<2>(mesh().cellType());
-  std::vector<Point> points;
-  for (std::size_t place = 0; place < numOwn_; ++place) {
-    mesh().elementPoints(elements_[place], points);
-    bool isStraight = std::ssize(points) == shape.numNodes; // of meshes of both it may be another cell
-    if (isStraight) {
-      const auto corners = mesh::relativeCorners<2>(points);
-      const mesh::ElementMap<2> map(corners, shape.centreSample());
-      for (int a = 1; a < shape.numNodes; ++a)
-        isStraight =
-            isStraight && (corners.col(a) - map.jacobian() * (shape.node(a) - shape.node(0))).norm() <=
-                              roundOff * map.jacobian().norm();
-    }
-    if (!isStraight)
-      throw InputError(
-          "guaranteed bounds are there for triangles and parallelograms with straight edges, all "
-          "of one kind, and body '" +
-          body_.name + "' has others; leave out \"Bound\"");
-  }
+  const mesh::Shape<dim>& shape = mesh::referenceShape<dim>(type);
+  if (std::ssize(points) != shape.numNodes) // of meshes of several kinds
+    return false;
+  const auto corners = mesh::relativeCorners<dim>(points);
+  const mesh::ElementMap<dim> map(corners, shape.centreSample());
+  for (int a = 1; a < shape.numNodes; ++a)
+    if ((corners.col(a) - map.jacobian() * (shape.node(a) - shape.node(0))).norm() >
+        roundOff * map.jacobian().norm())
+      return false;
+  return true;
 }
 
-EdgeKey BoundCells::edgeAt(std::size_t place, int edge) const {
-  const mesh::Facet& facet = facetsOf(mesh().cellType())[edge];
-  const auto nodes = nodesAt(place);
-  const GlobalOrdinal a = nodes[facet[0]], b = nodes[facet[1]];
-  return {std::min(a, b), std::max(a, b)};
+} // namespace
+
+void BoundCells::requireStraight() const {
+  using mesh::CellType;
+  const CellType type = mesh().cellType(), linear = withOrder(type, 1);
+  bool isCovered = dimensionOf(type) == 2 || linear == CellType::tetrahedron ||
+                   (linear == CellType::hexahedron && !isSerendipity(type));
+  std::vector<Point> points;
+  for (std::size_t place = 0; isCovered && place < numOwn_; ++place) {
+    mesh().elementPoints(elements_[place], points);
+    isCovered = (dimensionOf(type) == 2 ? isAffine<2> : isAffine<3>)(type, points);
+  }
+  if (!isCovered)
+    throw InputError("guaranteed bounds are there for triangles, parallelograms, tetrahedra and "
+                     "parallelepipeds of 8 or 27 nodes, "
+                     "with straight edges and all of one kind, and body '" +
+                     body_.name + "' has others; leave out \"Bound\"");
+}
+
+FacetKey facetKey(mesh::CellType facet, std::span<const GlobalOrdinal> nodes) {
+  std::array<GlobalOrdinal, mesh::mostFacetCorners> corners{};
+  corners.fill(std::numeric_limits<GlobalOrdinal>::max());
+  std::copy_n(nodes.begin(), numCornersOf(facet), corners.begin());
+  std::sort(corners.begin(), corners.end());
+  return {corners[0], corners[1], corners[2]};
+}
+
+FacetKey BoundCells::facetAt(std::size_t place, int facet) const {
+  std::array<GlobalOrdinal, mesh::mostFacetNodes> nodes{};
+  const mesh::Facet& its = facets()[facet];
+  for (std::size_t i = 0; i < its.size(); ++i)
+    nodes.at(i) = nodesAt(place)[its[i]];
+  return facetKey(its.type, nodes);
 }
 
 const fem::CellStress& BoundCells::stressAt(std::size_t place, std::optional<fem::CellStress>& own) const {

@@ -17,8 +17,10 @@
 
 namespace epafi::accuracy {
 
-/// Corners of an edge of elements, ascending.
-using EdgeKey = std::array<GlobalOrdinal, 2>;
+/// The least numbers of a facet's corners, ascending, and of an edge the greatest number there is.
+using FacetKey = std::array<GlobalOrdinal, 3>;
+/// \param nodes  of a facet, its corners first
+FacetKey facetKey(mesh::CellType facet, std::span<const GlobalOrdinal> nodes);
 
 /// An element as one of its nodes sees it.
 struct CellCorner {
@@ -29,8 +31,8 @@ struct CellCorner {
 /// Of one body.
 class BoundCells {
 public:
-  /// Keeps references to scene body and layout. \throws InputError if elements are no triangles or
-  /// parallelograms with straight edges.
+  /// Keeps references to scene body and layout. \throws InputError if elements are no simplices,
+  /// parallelograms or parallelepipeds with straight edges.
   BoundCells(const scene::Body& body, const model::BodyLayout& layout,
              const decomposition::DecomposedProblem& problem, int number);
 
@@ -56,7 +58,9 @@ public:
   [[nodiscard]] std::span<const CellCorner> around(int local) const {
     return std::span(around_).subspan(firstAround_[local], firstAround_[local + 1] - firstAround_[local]);
   }
-  [[nodiscard]] EdgeKey edgeAt(std::size_t place, int edge) const;
+  [[nodiscard]] std::span<const mesh::Facet> facets() const { return facetsOf(mesh().cellType()); }
+  [[nodiscard]] mesh::CellType facetType() const { return facetTypeOf(mesh().cellType()); }
+  [[nodiscard]] FacetKey facetAt(std::size_t place, int facet) const;
   [[nodiscard]] const mesh::Mesh& mesh() const { return *layout_.mesh; }
   [[nodiscard]] const scene::Body& body() const { return body_; }
   [[nodiscard]] const fem::BodyModel& model() const { return *model_; }

@@ -40,25 +40,37 @@ bool hasSurface(const mesh::Mesh& mesh, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void addSupports(const BoundCells& cells, BoundaryEdges& edges) {
+/// The axis of space that is most nearly normal to a facet.
+std::size_t axisAcross(const std::vector<Point>& points, std::size_t dimension) {
+  Eigen::Vector3d normal;
+  const auto to = [&](std::size_t i) -> Eigen::Vector3d {
+    return {points[i][0] - points[0][0], points[i][1] - points[0][1], points[i][2] - points[0][2]};
+  };
+  normal = to(1).cross(dimension == 2 ? Eigen::Vector3d::UnitZ().eval() : to(2));
+  Eigen::Index axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+void addSupports(const BoundCells& cells, BoundaryFacets& facets) {
   std::vector<Point> points;
   for (const SolidSupport& support : cells.body().supports) {
     if (!hasSurface(cells.mesh(), support.surface))
       refuse(cells, "supports of single nodes");
     const mesh::Surface surface = cells.mesh().surface(support.surface);
     for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-      BoundaryEdge& edge = addForces(edges, surface.facet(f),
-                                     Eigen::MatrixXd::Zero(cells.components(), surface.nodesPerFacet()));
+      BoundaryFacet& facet = addForces(facets, surface.typeOf(f), surface.facet(f),
+                                       Eigen::MatrixXd::Zero(cells.components(), surface.nodesPerFacet()));
       cells.mesh().pointsAt(surface.facet(f), points);
-      const bool isAlongX = std::abs(points[1][0] - points[0][0]) > std::abs(points[1][1] - points[0][1]);
-      for (std::size_t c = 0; c < 2; ++c)
-        if (support.value.at(c) || (support.normal && (c == 1) == isAlongX))
-          edge.isHeld.at(c) = true;
+      const std::size_t across = axisAcross(points, dimensionOf(cells.mesh().cellType()));
+      for (std::size_t c = 0; c < 3; ++c)
+        if (support.value.at(c) || (support.normal && c == across))
+          facet.isHeld.at(c) = true;
     }
   }
 }
 
-void addTractions(const BoundCells& cells, BoundaryEdges& edges) {
+void addTractions(const BoundCells& cells, BoundaryFacets& facets) {
   std::vector<Point> points;
   Eigen::VectorXd values;
   for (const SolidLoad& load : cells.body().loads) {
@@ -73,7 +85,8 @@ void addTractions(const BoundCells& cells, BoundaryEdges& edges) {
         fem::pressureLoad(surface.facetType, points, cells.body().physics, material, load.value[0], values);
       else
         fem::tractionLoad(surface.facetType, points, cells.body().physics, material, load.value, values);
-      addForces(edges, surface.facet(f), values.reshaped(cells.components(), surface.nodesPerFacet()));
+      addForces(facets, surface.typeOf(f), surface.facet(f),
+                values.reshaped(cells.components(), surface.nodesPerFacet()));
     }
   }
 }
@@ -84,7 +97,7 @@ double shareOf(const mesh::StructuredMesh& mesh, GlobalOrdinal element, const me
   mesh::GridWalk walk = mesh.elementWalk();
   walk.to(element);
   double share = 1;
-  for (std::size_t d = 0; d < 2; ++d) {
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimensionOf(mesh.cellType())); ++d) {
     const double from = mesh.coordinate(d, walk[d]), to = mesh.coordinate(d, walk[d] + 1);
     const double part =
         std::max(0.0, std::min(to, box.upper.at(d)) - std::max(from, box.lower.at(d))) / (to - from);
@@ -97,12 +110,12 @@ void addBodyForces(const BoundCells& cells, BoundLoads& loads) {
   const auto components = static_cast<Eigen::Index>(cells.components());
   const fem::SolidBody body(cells.body(), cells.mesh());
   std::vector<GlobalOrdinal> elements;
-  std::vector<double> thickness, area;
+  std::vector<double> thickness, measure;
   std::optional<fem::CellStress> own;
   for (std::size_t place = 0; place < cells.number(); ++place) {
     elements.push_back(cells.elementAt(place));
     thickness.push_back(fem::thicknessOf(cells.body().physics, cells.materialAt(place)));
-    area.push_back(cells.stressAt(place, own).measure());
+    measure.push_back(cells.stressAt(place, own).measure());
   }
   for (const SolidLoad& load : cells.body().loads) {
     if (load.kind != SolidLoad::Kind::body)
@@ -112,7 +125,7 @@ void addBodyForces(const BoundCells& cells, BoundLoads& loads) {
       loads.load.col(place) += share * thickness[place] * value;
       if (share < 1 && place < cells.numOwn())
         loads.missing[place] +=
-            thickness[place] * value.norm() * std::sqrt(share * (1 - share) * area[place]);
+            thickness[place] * value.norm() * std::sqrt(share * (1 - share) * measure[place]);
       if (share < 1 && components > 1)
         refuse(cells, "loads that end inside of elements");
     };
@@ -129,26 +142,26 @@ void addBodyForces(const BoundCells& cells, BoundLoads& loads) {
 
 } // namespace
 
-BoundaryEdge& addForces(BoundaryEdges& edges, std::span<const GlobalOrdinal> nodes,
-                        const Eigen::MatrixXd& forces) {
-  BoundaryEdge& edge = edges[{std::min(nodes[0], nodes[1]), std::max(nodes[0], nodes[1])}];
-  if (edge.nodes.empty()) {
-    edge.nodes.assign(nodes.begin(), nodes.end());
-    edge.forces = forces;
-    return edge;
+BoundaryFacet& addForces(BoundaryFacets& facets, mesh::CellType type, std::span<const GlobalOrdinal> nodes,
+                         const Eigen::MatrixXd& forces) {
+  BoundaryFacet& facet = facets[facetKey(type, nodes)];
+  if (facet.nodes.empty()) {
+    facet.nodes.assign(nodes.begin(), nodes.end());
+    facet.forces = forces;
+    return facet;
   }
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    edge.forces.col(std::find(edge.nodes.begin(), edge.nodes.end(), nodes[i]) - edge.nodes.begin()) +=
+    facet.forces.col(std::find(facet.nodes.begin(), facet.nodes.end(), nodes[i]) - facet.nodes.begin()) +=
         forces.col(i);
-  return edge;
+  return facet;
 }
 
 BoundLoads boundLoads(const BoundCells& cells) {
   requireCovered(cells);
   const Eigen::Index components = cells.components();
   BoundLoads loads;
-  addSupports(cells, loads.edges);
-  addTractions(cells, loads.edges);
+  addSupports(cells, loads.facets);
+  addTractions(cells, loads.facets);
   loads.load = Eigen::MatrixXd::Zero(components, cells.number());
   loads.missing.assign(cells.numOwn(), 0.0);
   addBodyForces(cells, loads);
@@ -157,11 +170,10 @@ BoundLoads boundLoads(const BoundCells& cells) {
     elements.push_back(cells.elementAt(place));
   cells.model().loads(elements, loads.whole);
   loads.volume = loads.whole;
-  const auto facets = facetsOf(cells.mesh().cellType());
   for (std::size_t place = 0; place < cells.number(); ++place)
-    for (int k = 0; k < std::ssize(facets); ++k) {
-      const auto found = loads.edges.find(cells.edgeAt(place, k));
-      if (found == loads.edges.end())
+    for (int k = 0; k < std::ssize(cells.facets()); ++k) {
+      const auto found = loads.facets.find(cells.facetAt(place, k));
+      if (found == loads.facets.end())
         continue;
       const auto nodes = cells.nodesAt(place);
       for (std::size_t i = 0; i < found->second.nodes.size(); ++i) {

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 
-#include <Eigen/LU>
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,117 +28,121 @@ void requireCovered(const scene::SurfaceContact& terms, const ContactLayout& con
   if (terms.stiffness > 0)
     refuse(contact, "surfaces that give way");
   const auto isPair = [](const auto& nodes) { return nodes.size() == 1 && nodes[0].weight == 1; };
-  if (!contact.firstShares.empty() || !contact.secondLevers.empty() || !contact.combinations.empty() ||
+  if (!contact.firstShares.empty() || !contact.secondLevers.empty() ||
       (contact.secondBody >= 0 &&
        !std::all_of(contact.secondNodes.begin(), contact.secondNodes.end(), isPair)))
     refuse(contact, "surfaces that are coupled otherwise than node by node");
 }
 
-/// ∫ B_i B_j of Bernstein's polynomials over [0, 1], in the order of an edge's nodes.
-Eigen::MatrixXd bernsteinProducts(std::size_t numNodes) {
-  Eigen::MatrixXd products(numNodes, numNodes);
-  if (numNodes == 2)
-    products << 1.0 / 3, 1.0 / 6, 1.0 / 6, 1.0 / 3;
-  else
-    products << 1.0 / 5, 1.0 / 30, 1.0 / 10, 1.0 / 30, 1.0 / 5, 1.0 / 10, 1.0 / 10, 1.0 / 10, 2.0 / 15;
-  return products;
-}
-
-/// T with B = Tᵀ N: values of B_k at node a.
-Eigen::MatrixXd bernsteinAtNodes(std::size_t numNodes) {
-  Eigen::MatrixXd values = Eigen::MatrixXd::Identity(numNodes, numNodes);
-  if (numNodes == 3)
-    values.row(2) << 0.25, 0.25, 0.5;
-  return values;
+/// The facets of surfaces of a mesh.
+template <class Action>
+void forEachFacet(const mesh::Mesh& mesh, const std::vector<std::string>& names, const Action& action) {
+  for (const std::string& name : names) {
+    const mesh::Surface surface = mesh.surface(name);
+    for (std::size_t f = 0; f < surface.numFacets(); ++f)
+      action(surface.typeOf(f), surface.facet(f));
+  }
 }
 
 } // namespace
 
 ContactPressure::ContactPressure(const scene::Scene& scene, const model::Decomposition& decomposition)
-    : gaps_(decomposition.problem.numInequalities, 0.0) {
-  constexpr double alike = 1e-9;
+    : gaps_(decomposition.problem.numInequalities, 0.0), ofNodes_(gaps_.size()), ofRows_(gaps_.size()) {
   if (!decomposition.ties.empty() || !decomposition.equations.empty() || !scene.equations.empty())
     throw InputError("guaranteed bounds are not there for tied joints, equations and springs; leave out "
                      "\"Bound\"");
   for (const ContactLayout& contact : decomposition.contacts) {
     requireCovered(scene.contacts[contact.number], contact);
-    if (!contact.hasOwnRows)
-      continue;
-    std::unordered_map<GlobalOrdinal, std::size_t> rowAt;
-    for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
-      rowAt.emplace(contact.firstNodes[row], row);
-      gaps_[contact.firstRow + row] = contact.gaps[row];
-    }
-    std::set<EdgeKey> facing;
-    for (const std::string& name :
-         contact.secondBody < 0 ? std::vector<std::string>() : contact.secondSurfaces) {
-      const mesh::Surface surface = decomposition.bodies[contact.secondBody].mesh->surface(name);
-      for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-        const auto nodes = surface.facet(f);
-        facing.insert({std::min(nodes[0], nodes[1]), std::max(nodes[0], nodes[1])});
-      }
-    }
-    const mesh::Mesh& mesh = *decomposition.bodies[contact.firstBody].mesh;
-    std::vector<Point> points;
-    for (const std::string& name : contact.firstSurfaces) {
-      const mesh::Surface surface = mesh.surface(name);
-      for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-        const auto nodes = surface.facet(f);
-        if (!std::all_of(nodes.begin(), nodes.end(), [&](GlobalOrdinal n) { return rowAt.contains(n); }))
-          continue;
-        ContactEdge edge{
-            contact.firstBody, contact.secondBody, {}, {nodes.begin(), nodes.end()}, {}, {}, 0, {}};
-        for (const GlobalOrdinal node : nodes) {
-          const std::size_t row = rowAt.at(node);
-          const Eigen::VectorXd direction =
-              contact.directionAt(row).head(static_cast<Eigen::Index>(contact.numComponents()));
-          if (edge.rows.empty())
-            edge.direction = direction;
-          else if ((direction - edge.direction).norm() > alike)
-            refuse(contact, "surfaces that are bent");
-          edge.rows.push_back(contact.firstRow + static_cast<GlobalOrdinal>(row));
-          if (contact.secondBody >= 0)
-            edge.facing.push_back(contact.secondNodes[row][0].node);
-        }
-        if (contact.secondBody >= 0 && !facing.contains({std::min(edge.facing[0], edge.facing[1]),
-                                                         std::max(edge.facing[0], edge.facing[1])}))
-          continue;
-        mesh.pointsAt(nodes, points);
-        edge.length = std::hypot(points[1][0] - points[0][0], points[1][1] - points[0][1]);
-        edge.pressure = Eigen::VectorXd::Zero(std::ssize(nodes));
-        edges_.push_back(std::move(edge));
-      }
-    }
+    if (contact.hasOwnRows)
+      addContact(contact, decomposition);
   }
 }
 
-/// Continuous, with the least ½∫p² − Σ λ p, coefficients ≥ 0: projected Gauss-Seidel. What forces it amounts
-/// to need not be λ.
+void ContactPressure::addContact(const ContactLayout& contact, const model::Decomposition& decomposition) {
+  constexpr double alike = 1e-9;
+  const bool isTwoSided = contact.secondBody >= 0;
+  std::unordered_map<GlobalOrdinal, std::size_t> placeOf;
+  for (std::size_t place = 0; place < contact.firstNodes.size(); ++place) {
+    const std::size_t row = contact.firstRow + place;
+    placeOf.emplace(contact.firstNodes[place], place);
+    gaps_[row] = contact.gaps[place];
+    contact.forEachShare(place, [&](std::size_t node, double weight) {
+      ofNodes_[contact.firstRow + node].emplace_back(row, weight);
+    });
+    if (contact.combinations.empty())
+      ofRows_[row].emplace_back(row, 1.0);
+    else
+      for (const ContactLayout::Share& share : contact.smoothed[place])
+        ofRows_[row].emplace_back(contact.firstRow + share.node, share.weight);
+  }
+  std::set<std::pair<mesh::CellType, FacetKey>> facing;
+  if (isTwoSided)
+    forEachFacet(
+        *decomposition.bodies[contact.secondBody].mesh, contact.secondSurfaces,
+        [&](mesh::CellType type, const auto& nodes) { facing.emplace(type, facetKey(type, nodes)); });
+  const mesh::Mesh& mesh = *decomposition.bodies[contact.firstBody].mesh;
+  std::vector<Point> points;
+  forEachFacet(mesh, contact.firstSurfaces, [&](mesh::CellType type, const auto& nodes) {
+    if (!std::all_of(nodes.begin(), nodes.end(), [&](GlobalOrdinal n) { return placeOf.contains(n); }))
+      return;
+    ContactFacet facet{
+        type, contact.firstBody, contact.secondBody, {}, {nodes.begin(), nodes.end()}, {}, {}, 0, {}};
+    for (const GlobalOrdinal node : nodes) {
+      const std::size_t place = placeOf.at(node);
+      const Eigen::VectorXd direction =
+          contact.directionAt(place).head(static_cast<Eigen::Index>(contact.numComponents()));
+      if (facet.rows.empty())
+        facet.direction = direction;
+      else if ((direction - facet.direction).norm() > alike)
+        refuse(contact, "surfaces that are bent");
+      facet.rows.push_back(contact.firstRow + static_cast<GlobalOrdinal>(place));
+      if (isTwoSided)
+        facet.facing.push_back(contact.secondNodes[place][0].node);
+    }
+    if (isTwoSided && !facing.contains({type, facetKey(type, facet.facing)}))
+      return;
+    mesh.pointsAt(nodes, points);
+    facet.measure = mesh::areaVector(type, points).norm();
+    facet.pressure = Eigen::VectorXd::Zero(std::ssize(nodes));
+    facets_.push_back(std::move(facet));
+  });
+}
+
+std::vector<double> ContactPressure::combined(const std::vector<Shares>& shares,
+                                              std::span<const double> values) {
+  std::vector<double> sums(values.size(), 0.0);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    for (const auto& [place, weight] : shares[i])
+      sums[i] += weight * values[place];
+  return sums;
+}
+
+/// Continuous, with ∫ p N_j = λ_j at nodes j as far as coefficients ≥ 0 allow: complementary to
+/// Σ_j β_i(x_j) (∫ p N_j − λ_j), by projected Gauss-Seidel. Of Bernstein's functions that is the least
+/// ½∫p² − Σ λ p. What forces it amounts to need not be λ.
 std::vector<double> ContactPressure::fit(std::span<const double> forces) {
   constexpr int sweeps = 100;
-  std::vector<double> wanted(forces.size(), 0.0), diagonal(forces.size(), 0.0), p(forces.size(), 0.0);
-  std::vector<char> isIn(forces.size(), 0);
+  const std::vector<double> nodal = combined(ofNodes_, forces);
+  std::vector<double> wanted(forces.size(), 0.0), p(forces.size(), 0.0), measures(forces.size(), 0.0);
   std::vector<std::map<GlobalOrdinal, double>> rows(forces.size());
-  std::map<GlobalOrdinal, double> ofMiddle; // share of a middle's force that its corners take
-  for (const ContactEdge& edge : edges_) {
-    const Eigen::MatrixXd products = edge.length * bernsteinProducts(edge.rows.size());
-    for (std::size_t i = 0; i < edge.rows.size(); ++i) {
-      isIn[edge.rows[i]] = 1;
-      for (std::size_t j = 0; j < edge.rows.size(); ++j)
-        rows[edge.rows[i]][edge.rows[j]] += products(i, j);
-    }
-    if (edge.rows.size() == 3) {
-      for (std::size_t i = 0; i < 2; ++i)
-        wanted[edge.rows[i]] += 0.25 * forces[edge.rows[2]];
-      wanted[edge.rows[2]] -= 0.5 * forces[edge.rows[2]];
-    }
+  for (const ContactFacet& facet : facets_)
+    for (const GlobalOrdinal row : facet.rows)
+      measures[row] += facet.measure;
+  for (const ContactFacet& facet : facets_) {
+    const fem::FacetFunctions& functions = facet.functions();
+    const Eigen::MatrixXd products = facet.measure * functions.atNodes.transpose() * functions.moments;
+    const std::size_t number = facet.rows.size();
+    for (std::size_t i = 0; i < number; ++i)
+      for (std::size_t j = 0; j < number; ++j) {
+        rows[facet.rows[i]][facet.rows[j]] += products(i, j);
+        // Σ λ p(x): a node's share that this facet has of what the function of i is at j
+        wanted[facet.rows[i]] +=
+            facet.measure / measures[facet.rows[j]] * functions.atNodes(j, i) * nodal[facet.rows[j]];
+      }
   }
-  for (std::size_t row = 0; row < forces.size(); ++row)
-    if (isIn[row] != 0)
-      wanted[row] += forces[row];
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (std::size_t row = 0; row < forces.size(); ++row) {
-      if (isIn[row] == 0)
+      if (rows[row].empty())
         continue;
       double rest = wanted[row], own = 0;
       for (const auto& [column, value] : rows[row]) {
@@ -149,54 +153,63 @@ std::vector<double> ContactPressure::fit(std::span<const double> forces) {
       p[row] = std::max(0.0, p[row] + rest / own);
     }
   std::vector<double> result(forces.size(), 0.0);
-  for (ContactEdge& edge : edges_) {
-    for (std::size_t i = 0; i < edge.rows.size(); ++i)
-      edge.pressure[static_cast<Eigen::Index>(i)] = p[edge.rows[i]];
-    const Eigen::VectorXd moments = momentsOf(edge);
-    for (std::size_t i = 0; i < edge.rows.size(); ++i)
-      result[edge.rows[i]] += moments[static_cast<Eigen::Index>(i)];
+  for (ContactFacet& facet : facets_) {
+    for (std::size_t i = 0; i < facet.rows.size(); ++i)
+      facet.pressure[static_cast<Eigen::Index>(i)] = p[facet.rows[i]];
+    const Eigen::VectorXd moments = facet.moments();
+    for (std::size_t i = 0; i < facet.rows.size(); ++i)
+      result[facet.rows[i]] += moments[static_cast<Eigen::Index>(i)];
   }
-  return result;
-}
-
-/// ∫ p N_a
-Eigen::VectorXd ContactPressure::momentsOf(const ContactEdge& edge) {
-  const Eigen::MatrixXd at = bernsteinAtNodes(edge.rows.size());
-  // ∫ p B = Tᵀ ∫ p N
-  return at.transpose().lu().solve(edge.length * bernsteinProducts(edge.rows.size()) * edge.pressure);
+  return combined(ofRows_, result);
 }
 
 void ContactPressure::addTo(std::vector<BoundLoads>& loads) const {
-  for (const ContactEdge& edge : edges_) {
-    const Eigen::MatrixXd forces = edge.direction * momentsOf(edge).transpose();
-    addForces(loads[edge.first].edges, edge.nodes, -forces);
-    if (edge.second >= 0)
-      addForces(loads[edge.second].edges, edge.facing, forces);
+  for (const ContactFacet& facet : facets_) {
+    const Eigen::MatrixXd forces = facet.direction * facet.moments().transpose();
+    addForces(loads[facet.first].facets, facet.type, facet.nodes, -forces);
+    if (facet.second >= 0)
+      addForces(loads[facet.second].facets, facet.type, facet.facing, forces);
   }
 }
 
 double ContactPressure::work(std::span<const double> slack) const {
   double sum = 0;
-  for (const ContactEdge& edge : edges_) {
-    const Eigen::VectorXd moments = momentsOf(edge);
-    for (std::size_t i = 0; i < edge.rows.size(); ++i)
-      sum += moments[static_cast<Eigen::Index>(i)] * slack[edge.rows[i]];
+  for (const ContactFacet& facet : facets_) {
+    const Eigen::VectorXd moments = facet.moments();
+    for (std::size_t i = 0; i < facet.rows.size(); ++i)
+      sum += moments[static_cast<Eigen::Index>(i)] * slack[facet.rows[i]];
   }
   return sum;
 }
 
-/// At corners what they penetrate by. A quadratic is nowhere negative if its middle is no less than
-/// ¼(√a − √b)², a and b its ends.
+/// At corners what they penetrate by. Between corners a and b a quadratic has the coefficient m in terms of
+/// Bernstein's polynomials, which is to be no less than −s√(ab): s = 1 suffices on an edge, ½ on triangles,
+/// where the quadratic is then a semidefinite form of √a …; on quadrilaterals no coefficient is to be
+/// negative.
 std::vector<double> ContactPressure::lacking(std::span<const double> slack) const {
   std::vector<double> lack(slack.size(), 0.0);
-  for (const ContactEdge& edge : edges_)
-    for (std::size_t i = 0; i < 2; ++i)
-      lack[edge.rows[i]] = std::max(0.0, -slack[edge.rows[i]]);
-  for (const ContactEdge& edge : edges_)
-    if (edge.rows.size() == 3) {
-      const auto end = [&](std::size_t i) { return std::sqrt(slack[edge.rows[i]] + lack[edge.rows[i]]); };
-      const double least = 0.25 * (end(0) - end(1)) * (end(0) - end(1));
-      lack[edge.rows[2]] = std::max(0.0, least - slack[edge.rows[2]]);
+  for (const ContactFacet& facet : facets_)
+    for (int i = 0; i < numCornersOf(facet.type); ++i)
+      lack[facet.rows[i]] = std::max(0.0, -slack[facet.rows[i]]);
+  const auto at = [&](GlobalOrdinal row) { return slack[row] + lack[row]; };
+  for (const ContactFacet& facet : facets_) {
+    const int corners = numCornersOf(facet.type);
+    const double share = corners == 2 ? 1 : corners == 3 ? 0.5 : 0;
+    const auto ends = edgesOf(facet.type);
+    for (std::size_t middle = corners, end = 0; middle < facet.rows.size() && end < ends.size();
+         ++middle, end += 2) {
+      const double a = at(facet.rows[ends[end]]), b = at(facet.rows[ends[end + 1]]),
+                   least = 0.25 * (a + b) - 0.5 * share * std::sqrt(a * b);
+      double& its = lack[facet.rows[middle]];
+      its = std::max({0.0, its, least - slack[facet.rows[middle]]});
+    }
+  }
+  for (const ContactFacet& facet : facets_)
+    if (facet.rows.size() == 9) {
+      double least = 0;
+      for (std::size_t i = 0; i < 8; ++i)
+        least += (i < 4 ? -0.0625 : 0.25) * at(facet.rows[i]);
+      lack[facet.rows[8]] = std::max(0.0, least - slack[facet.rows[8]]);
     }
   return lack;
 }

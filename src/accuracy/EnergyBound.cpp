@@ -20,11 +20,9 @@ namespace {
 /// Only what is the same on all ranks.
 void requireCovered(const scene::Scene& scene) {
   for (const scene::Body& body : scene.bodies)
-    if (body.physics != fem::Physics::membrane && body.physics != fem::Physics::planeStrain &&
-        body.physics != fem::Physics::planeStress)
-      throw InputError(
-          "guaranteed bounds are there for membranes, plane strain and plane stress, and body '" + body.name +
-          "' is of another kind (" + toString(body.physics) + "); leave out \"Bound\"");
+    if (body.physics == fem::Physics::axisymmetric)
+      throw InputError("guaranteed bounds are not there for solids of revolution (" + toString(body.physics) +
+                       "), as body '" + body.name + "' is; leave out \"Bound\"");
 }
 
 ContactPressure contactsOf(const scene::Scene& scene, const model::Decomposition& decomposition) {
@@ -59,6 +57,7 @@ EnergyBound EnergyBounds::operator()(std::span<const Eigen::VectorXd> displaceme
   const std::vector<Eigen::MatrixXd> solution = displacementsOf(cells_, decomposition_, displacement);
   EnergyBound bound;
   std::vector<Eigen::MatrixXd> data;
+  std::vector<Eigen::VectorXd> squares;
   {
     std::vector<BoundLoads> loads = loads_;
     pressure_.addTo(loads);
@@ -82,28 +81,17 @@ EnergyBound EnergyBounds::operator()(std::span<const Eigen::VectorXd> displaceme
       bound.failure = text.str();
       return bound;
     }
-    bound.steps = relaxTractions(cells_, loads, comm, 0.5 * differenceOf(data, around), data);
+    RelaxedEnergies relaxed = relaxTractions(cells_, loads, comm, around, data);
+    bound.steps = relaxed.steps;
+    squares = std::move(relaxed.squares);
   }
   const AdmissibleDisplacement admissible = admissibleDisplacement(cells_, pressure_, comm, solution);
   bound.failure = agreedText(*comm, admissible.failure);
   if (!bound.failure.empty())
     return bound;
   bound.contact = std::max(0.0, pressure_.work(admissible.slack));
-  addEnergies(solution, admissible, data, bound);
+  addEnergies(solution, admissible, data, squares, bound);
   return bound;
-}
-
-/// ‖τ − σ‖² of own cells. Collective.
-double EnergyBounds::differenceOf(const std::vector<Eigen::MatrixXd>& data,
-                                  const std::vector<Eigen::MatrixXd>& displacements) const {
-  AccurateSum sums[1];
-  std::optional<fem::CellStress> own;
-  for (std::size_t b = 0; b < cells_.size(); ++b)
-    for (std::size_t place = 0; place < cells_[b]->numOwn(); ++place)
-      sums[0].add(
-          cells_[b]->stressAt(place, own).difference(data[b].col(place), displacements[b].col(place)));
-  sumOverRanks(*decomposition_.problem.comm, sums);
-  return sums[0].value();
 }
 
 /// ‖f − mean‖ in the dual of the energy norm, by Poincaré's constant of a convex domain (L. E. Payne, H. F.
@@ -120,7 +108,8 @@ double EnergyBounds::missingAt(std::size_t body, std::size_t place) const {
 
 void EnergyBounds::addEnergies(const std::vector<Eigen::MatrixXd>& solution,
                                const AdmissibleDisplacement& admissible,
-                               const std::vector<Eigen::MatrixXd>& data, EnergyBound& bound) const {
+                               const std::vector<Eigen::MatrixXd>& data,
+                               const std::vector<Eigen::VectorXd>& squares, EnergyBound& bound) const {
   enum Term : std::size_t { energy, norm, difference, whole, other, correction, jump, numTerms };
   std::array<AccurateSum, numTerms> sums;
   Eigen::MatrixXd ownStiffness;
@@ -136,11 +125,12 @@ void EnergyBounds::addEnergies(const std::vector<Eigen::MatrixXd>& solution,
       sums[correction].add(moved.dot(stiffness * moved));
       sums[jump].add(jumps.dot(stiffness * jumps));
       const fem::CellStress& stress = cells_[b]->stressAt(place, own);
-      const double missing = missingAt(b, place), rest = stress.difference(data[b].col(place), v),
-                   with = std::sqrt(rest) + missing,
-                   reflected = moved.isZero(0)
-                                   ? with
-                                   : std::sqrt(stress.difference(data[b].col(place), mean + moved)) + missing;
+      const auto distance = [&](const Eigen::VectorXd& u) {
+        return stress.difference(squares[b][static_cast<Eigen::Index>(place)], data[b].col(place), u,
+                                 stiffness);
+      };
+      const double missing = missingAt(b, place), rest = distance(v), with = std::sqrt(rest) + missing,
+                   reflected = moved.isZero(0) ? with : std::sqrt(distance(mean + moved)) + missing;
       sums[difference].add(rest);
       sums[whole].add(with * with);
       sums[other].add(reflected * reflected);

@@ -52,11 +52,10 @@ public:
                          std::span<const Eigen::VectorXd> balanced);
 
 private:
-  [[nodiscard]] double differenceOf(const std::vector<Eigen::MatrixXd>& data,
-                                    const std::vector<Eigen::MatrixXd>& displacements) const;
   [[nodiscard]] double missingAt(std::size_t body, std::size_t place) const;
   void addEnergies(const std::vector<Eigen::MatrixXd>& solution, const AdmissibleDisplacement& admissible,
-                   const std::vector<Eigen::MatrixXd>& data, EnergyBound& bound) const;
+                   const std::vector<Eigen::MatrixXd>& data, const std::vector<Eigen::VectorXd>& squares,
+                   EnergyBound& bound) const;
 
   const model::Decomposition& decomposition_;
   std::vector<std::unique_ptr<BoundCells>> cells_;

@@ -33,13 +33,15 @@ CellForces forcesOf(const BoundCells& cells, const BoundLoads& loads, const Eige
 class Star {
 public:
   Star(const BoundCells& cells, const BoundLoads& loads, const CellForces& forces)
-      : cells_(cells), loads_(loads), forces_(forces), facets_(facetsOf(cells.mesh().cellType())),
+      : cells_(cells), loads_(loads), forces_(forces), facets_(cells.facets()),
         components_(cells.components()) {}
 
   void solve(int node, EquilibratedTractions& result) {
     gather(node);
     const bool areAlike = std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
-      return side.given == nullptr || components_ == 1 || side.given->isHeld[0] == side.given->isHeld[1];
+      return side.given == nullptr ||
+             std::all_of(side.given->isHeld.begin(), side.given->isHeld.begin() + components_,
+                         [&](bool isHeld) { return isHeld == side.given->isHeld[0]; });
     });
     if (areAlike)
       balance(0, components_, result);
@@ -49,13 +51,13 @@ public:
   }
 
 private:
-  /// An edge at the node, as one of the elements around it sees it.
+  /// A facet at the node, as one of the elements around it sees it.
   struct Side {
-    EdgeKey key;
+    FacetKey key;
     Eigen::Index cell = 0;   ///< which of the elements around the node
     Eigen::Index moment = 0; ///< place of the node's moments among the element's data
-    std::size_t other = 0;   ///< the same edge as its other element sees it; itself: there is none
-    const BoundaryEdge* given = nullptr;
+    std::size_t other = 0;   ///< the same facet as its other element sees it; itself: there is none
+    const BoundaryFacet* given = nullptr;
     Eigen::Index inGiven = 0; ///< place of the node there
   };
 
@@ -66,7 +68,7 @@ private:
       for (int k = 0; k < std::ssize(facets_); ++k)
         for (std::size_t i = 0; i < facets_[k].size(); ++i)
           if (facets_[k][i] == around_[a].node)
-            sides_.push_back({cells_.edgeAt(around_[a].place, k), static_cast<Eigen::Index>(a),
+            sides_.push_back({cells_.facetAt(around_[a].place, k), static_cast<Eigen::Index>(a),
                               static_cast<Eigen::Index>(k * facets_[k].size() + i) * components_});
     for (std::size_t s = 0; s < sides_.size(); ++s) {
       Side& side = sides_[s];
@@ -76,7 +78,7 @@ private:
           side.other = t;
       if (side.other != s)
         continue;
-      if (const auto found = loads_.edges.find(side.key); found != loads_.edges.end()) {
+      if (const auto found = loads_.facets.find(side.key); found != loads_.facets.end()) {
         side.given = &found->second;
         const auto& nodes = found->second.nodes;
         side.inGiven = std::find(nodes.begin(), nodes.end(), cells_.nodeAt(node)) - nodes.begin();

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Tractions between elements that are in balance with the loads on each of them, forces and moments, from
-/// displacements that balance at nodes alone: the moments ∫ t N_a of the tractions on the edges at a node
+/// displacements that balance at nodes alone: the moments ∫ t N_a of the tractions on the facets at a node
 /// follow from one small least-squares problem around it (P. Ladevèze, D. Leguillon, *SIAM J. Numer. Anal.*
 /// 20 (1983)), as near to the means of both sides' stresses as balance allows.
 

@@ -28,8 +28,8 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
   addChoice(
       list, "Bound", boundKinds.front(),
       "guaranteed: the exact energy is bounded from both sides, and with it the error in the energy norm, "
-      "by a displacement that does not penetrate and a stress in balance with the loads. Membranes, plane "
-      "strain and plane stress, contact node by node without friction.",
+      "by a displacement that does not penetrate and a stress in balance with the loads. All bodies but "
+      "solids of revolution, contact node by node without friction.",
       boundKinds);
   addInteger(list, "Coarser Start", static_cast<int>(defaults.coarserFrom),
              "Without a target: elastic scenes with contact and so many unknowns or more look for the "

@@ -27,6 +27,7 @@ scene::Scene stack(int dimension, int number, const Vector3& force) {
         dimension == 3 ? mesh::Box{{0, 0, low}, {1, 1, high}} : mesh::Box{{0, low, 0}, {1, high, 0}};
     scene.bodies.push_back(test::block("block " + std::to_string(k), box, {2, 2, dimension == 3 ? 2 : 0},
                                        test::cutByMetis(k + 1)));
+    scene.bodies.back().material.poissonsRatio = 0;
     scene.bodies.back().loads = {test::weight(force)};
   }
   const std::string top = "top", bottom = "bottom";
