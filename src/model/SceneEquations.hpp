@@ -16,9 +16,9 @@ namespace epafi::model {
 std::vector<GlobalOrdinal> heldNodes(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
                                      const Comm& comm);
 
-/// Those of the scene, and those of its holds, that supports do not fix altogether. \throws InputError if a term's nodes are not there, or not one;
-/// SolvabilityError if supports hold all of an equation's displacements, at values that contradict it. Not
-/// collective (every rank finds the same).
+/// Those of the scene, and those of its holds, that supports do not fix altogether. Not collective (every
+/// rank finds the same). \throws InputError if a term's nodes are not there, or not one; SolvabilityError if
+/// supports hold all of an equation's displacements, at values that contradict it.
 /// \param held  heldNodes()
 std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
                                            const std::vector<std::unique_ptr<fem::BodyModel>>& models,

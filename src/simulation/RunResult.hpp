@@ -134,8 +134,8 @@ void requireAllContacts(RunResult& result);
 std::string statusOf(const RunResult& result);
 
 /// The report of a run: the lists Epafi, Problem, Algorithm, Plan, Iterations, Accuracy, Start, Quantity,
-/// Body, Contact, Tied, Support, Preload, Holds, Levels, Time, Memory and Status, as far as there is something to
-/// say.
+/// Body, Contact, Tied, Support, Preload, Holds, Levels, Time, Memory and Status, as far as there is
+/// something to say.
 Teuchos::ParameterList reportOf(const RunResult& result);
 
 } // namespace epafi::simulation

@@ -111,7 +111,7 @@ void refuseMotions(const RigidBalance& balance, const Eigen::MatrixXd& free, dou
                         freeMotionsOf(balance.problem, motions, accuracy));
 }
 
-/// Those that nothing but the facets of smooth surfaces hinders: where they lead to is the mesh's. Collective.
+/// Those that only facets of smooth surfaces hinder: where they lead to is the mesh's. Collective.
 Eigen::MatrixXd slippingMotionsOf(const RigidBalance& balance) {
   return slippingMotions(balance.problem, balance.rows, balance.scales.motions(), [](int) { return true; });
 }
