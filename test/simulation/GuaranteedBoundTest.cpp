@@ -181,7 +181,7 @@ TEST_F(GuaranteedBoundTest, HoldsForRandomLoads) {
   if (comm->getSize() > 1)
     GTEST_SKIP() << "bounds are the same on every number of ranks, as another test has it";
   test::SignedRandomNumbers random(45);
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const test::Kind& kind = test::kinds()[i % 4];
     const int order = 1 + i / 4 % 2;
     Scene scene = i % 3 == 0 ? onPlane(kind, order) : lifted(kind, order, 0.24 + 0.25 * random());
