@@ -6,6 +6,7 @@
 #include "epafi/base/Text.hpp"
 #include "epafi/fetidp/equilibrium/Solvability.hpp"
 #include "epafi/model/ContactData.hpp"
+#include "epafi/simulation/RunResult.hpp"
 
 #include <Eigen/Geometry>
 #include <Tpetra_Map.hpp>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -92,6 +94,15 @@ bool addHolds(const model::Decomposition& cut, const std::vector<fetidp::FreeMot
   return true;
 }
 
+/// Of contacts; where there are none, as large as the work along the way takes.
+double sizeOfForces(const RunResult& result) {
+  double way = 0;
+  for (const BodyResult& body : result.bodies)
+    way = std::max(way, body.largestDisplacement);
+  const double work = std::abs(result.energy) + std::abs(result.loadWork);
+  return std::max(result.contactForce, way > 0 ? work / way : 0);
+}
+
 } // namespace
 
 void holdFreeMotions(scene::Scene& scene, std::unique_ptr<model::Decomposition>& cut) {
@@ -136,10 +147,11 @@ std::vector<HoldResult> holdResults(const SolvedScene& solved) {
   return results;
 }
 
-std::string loadedHolds(const std::vector<HoldResult>& holds, double contactForce) {
+std::string loadedHolds(const RunResult& result) {
   constexpr double noise = 0.01;
-  for (const HoldResult& hold : holds)
-    if (const double size = Vector3d(hold.force.data()).norm(); size > noise * contactForce)
+  const double forces = sizeOfForces(result);
+  for (const HoldResult& hold : result.holds)
+    if (const double size = Vector3d(hold.force.data()).norm(); size > noise * forces)
       return "what holds free motions takes a force of " + text(size, 3) + " (" + hold.motion +
              "): loads turn or push it there, and with another hold the solution would be another one";
   return {};

@@ -26,7 +26,4 @@ void holdFreeMotions(scene::Scene& scene, std::unique_ptr<model::Decomposition>&
 /// Of each. Collective.
 std::vector<HoldResult> holdResults(const SolvedScene& solved);
 
-/// A sentence where holds take more than noise of the contacts' forces; empty if they do not.
-std::string loadedHolds(const std::vector<HoldResult>& holds, double contactForce);
-
 } // namespace epafi::simulation

@@ -239,7 +239,7 @@ void evaluateRun(SceneRun& run) {
   result.holds = holdResults(solved);
   for (const std::string& doubt :
        {largeDeformations(result, Deformation::doubtful), strongFeedback(result.feedback), unseen,
-        roundedGradient(run), loadedHolds(result.holds, result.contactForce)})
+        roundedGradient(run), loadedHolds(result)})
     if (!doubt.empty())
       result.doubts += (result.doubts.empty() ? "" : ". ") + doubt;
 }

@@ -254,7 +254,8 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
   SceneRun run;
   for (std::size_t k = done.results.size(); k < steps.size(); ++k) {
     scene::Scene next = sceneAfter(done, scene, steps);
-    next.holds = run.scene.holds;
+    if (!done.changesRows) // others are looked for with other rows
+      next.holds = run.scene.holds;
     forStep(steps[k], [&] {
       if (run.solver && !done.changesRows) {
         run.scene = std::move(next);

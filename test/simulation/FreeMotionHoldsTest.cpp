@@ -90,6 +90,37 @@ TEST(FreeMotionHoldsTest, WhatLoadsPushIsHeldAndTold) {
   }
 }
 
+TEST(FreeMotionHoldsTest, WithoutContactTheyTakeNothingEither) {
+  for (const int dimension : {2, 3}) {
+    scene::Scene scene = stack(dimension, 1, {0, 0, 0});
+    scene.contacts.clear();
+    scene.bodies[0].material.poissonsRatio = 0.3;
+    scene.bodies[0].loads.clear();
+    scene.bodies[0].supports = {test::slide("bottom"), test::slide("top", -0.1)};
+    scene.holdsFreeMotions = true;
+    const SceneRun held = solvedHolding(scene);
+    EXPECT_EQ(held.result.holds.size(), dimension == 3 ? 3U : 1U);
+    EXPECT_GT(held.result.energy, 0);
+    EXPECT_EQ(held.result.doubts.find("takes a force"), std::string::npos) << held.result.doubts;
+  }
+}
+
+/// In the second step the floor has an edge, against which the block is pushed: it is not held along that.
+TEST(FreeMotionHoldsTest, WhereRowsChangeTheyAreLookedForAnew) {
+  scene::Scene scene = stack(3, 1, downwards(3, 0.2));
+  scene.contacts.push_back(test::onPlane("edge", 0, "right", {1, 0, 0}, {-1, 0, 0}));
+  scene.holdsFreeMotions = true;
+  std::vector<scene::Step> steps(2);
+  steps[0].name = "free";
+  steps[0].isOn[1] = false;
+  steps[1].name = "edge";
+  steps[1].isOn[1] = true;
+  const SceneRun run = solveSteps(scene, steps, {}, Tpetra::getDefaultComm(), {}, {});
+  EXPECT_EQ(run.result.status, RunStatus::converged) << run.result.reason;
+  EXPECT_EQ(run.result.holds.size(), 1U); // along y: two faces hinder its turning
+  EXPECT_NEAR(run.result.steps[1].contacts[1].force, 0.2, 1e-6);
+}
+
 TEST(FreeMotionHoldsTest, TheyStayThroughLoadSteps) {
   scene::Scene scene = stack(3, 2, downwards(3));
   scene.holdsFreeMotions = true;
