@@ -121,11 +121,11 @@ struct RunResult {
   std::string reason; ///< one sentence
 };
 
-/// A sentence on the bodies that are deformed or turned by more than a limit; empty if there is none.
-std::string largeDeformations(const RunResult& result, double limit);
-
 /// A sentence where holds take more than noise of the scene's forces; empty if they do not.
 std::string loadedHolds(const RunResult& result);
+
+/// A sentence on the bodies that are deformed or turned by more than a limit; empty if there is none.
+std::string largeDeformations(const RunResult& result, double limit);
 
 /// Has a run that converged fail with this sentence where displacements are large (Deformation::large).
 void requireSmall(RunResult& result);
