@@ -59,6 +59,10 @@ private:
   [[nodiscard]] Prescribed prescribed() const;
   void addSupports();
   void addForces(std::size_t step);
+  struct SpreadForce {
+    Eigen::Vector3d force{0, 0, 0}, moment{0, 0, 0};
+  };
+  void addSpreadForce(const Coupling& coupling, const SpreadForce& spread, std::size_t step);
   void addPressures(std::size_t step);
   void addBodyForces(std::size_t step);
   Teuchos::ParameterList& addLoad(int body, std::size_t step, const std::string& kind);
