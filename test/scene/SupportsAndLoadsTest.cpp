@@ -91,7 +91,7 @@ TEST(SupportsAndLoadsTest, SurfacesThatArePlacesAreOfMeshFiles) {
   body.set("Mesh", "skin_*.msh");
   expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"a.xml", "\"at 1 0.5\"", "is a place"});
   ParameterList cube = cubeOnFloor();
-  bodyOf(cube, "cube").sublist("Supports").sublist("wall").set("Surface", "at 1 0.5 0");
+  bodyOf(cube, "cube").sublist("Supports").sublist("wall").set("Surface", "at 1 0.5 0").set("X", 0.0);
   expectSays(refusal([&] { solidOf(cube); }), {"\"cube\"", "is a place"});
 }
 
