@@ -1,7 +1,7 @@
 #pragma once
 
-/// Faces of different bodies that lie close together, on the facets of their meshes, curved where these are of
-/// order 2. Facets are off round surfaces: by how much, each pair says.
+/// Faces of different bodies that lie close together, on the facets of their meshes, curved where these are
+/// of order 2. Facets are off round surfaces: by how much, each pair says.
 
 #include "epafi/assembly/MeshFaces.hpp"
 #include "epafi/assembly/PairSearch.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Facets of meshes, as places, normals and distances are asked of them, and by how much they are off the smooth
-/// surfaces that they stand for.
+/// Facets of meshes, as places, normals and distances are asked of them, and by how much they are off the
+/// smooth surfaces that they stand for.
 
 #include "epafi/mesh/ElementMap.hpp"
 #include "epafi/mesh/Mesh.hpp"
@@ -51,7 +51,7 @@ template <int dim>
 bool isInside(const mesh::Shape<dim>& shape, const mesh::Coordinates<dim>& xi) {
   constexpr double rounding = 1e-6;
   return shape.isSimplex ? xi.minCoeff() >= -rounding && xi.sum() <= 1 + rounding
-                                    : xi.cwiseAbs().maxCoeff() <= 1 + rounding;
+                         : xi.cwiseAbs().maxCoeff() <= 1 + rounding;
 }
 
 /// What lies on a line.

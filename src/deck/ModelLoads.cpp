@@ -163,11 +163,8 @@ void ModelMaker::addForces(std::size_t step) {
       for (const GlobalOrdinal node : force.nodes)
         history.add({node, force.component - 1}, &force);
   }
-  std::map<GlobalOrdinal, Eigen::Vector3d> forces;
+  NodeForces forces;
   std::map<const Coupling*, SpreadForce> spread;
-  const auto addForce = [&](GlobalOrdinal node, const Eigen::Vector3d& force) {
-    forces.try_emplace(node, Eigen::Vector3d::Zero()).first->second += force;
-  };
   for (const auto& [key, cards] : history.all())
     for (const NodeForce* card : cards) {
       const double size = card->value * factorAt(card->amplitude, card->delay, step);
@@ -183,22 +180,10 @@ void ModelMaker::addForces(std::size_t step) {
       if (bodies_.ofNode(key.first).empty())
         refuse(card->place, "*CLOAD: node " + std::to_string(key.first) +
                                 " belongs to no element; a force on it is not solved here");
-      addForce(key.first, size * axesOf(key.first).col(key.second));
+      forces.try_emplace(key.first, Eigen::Vector3d::Zero()).first->second +=
+          size * axesOf(key.first).col(key.second);
     }
-  for (const auto& [coupling, own] : spread) {
-    if (!coupling->surface.empty())
-      addSpreadForce(*coupling, own, step);
-    else if (!own.moment.isZero(0))
-      refuse(coupling->place,
-             "*DISTRIBUTING COUPLING: it passes on forces alone, and there is a moment; write "
-             "*COUPLING and *DISTRIBUTING");
-    for (const auto& [node, weight] : coupling->weights) {
-      if (bodies_.ofNode(node).empty())
-        refuse(coupling->place, "*DISTRIBUTING COUPLING: node " + std::to_string(node) +
-                                    " belongs to no element; leave it out");
-      addForce(node, weight * own.force);
-    }
-  }
+  shareOut(spread, step, forces);
   std::map<std::pair<int, std::array<double, 3>>, Numbers> groups; // nodes with the same force
   for (const auto& [node, force] : forces)
     if (!force.isZero(0))
@@ -211,6 +196,25 @@ void ModelMaker::addForces(std::size_t step) {
                         nodes));
     load.set("Force", firstOf(Eigen::Map<const Eigen::Vector3d>(key.second.data()),
                               bodies_.all()[key.first].type->dimension));
+  }
+}
+
+/// What nodes take that stand for others becomes loads on surfaces, or forces of these others.
+void ModelMaker::shareOut(const std::map<const Coupling*, SpreadForce>& spread, std::size_t step,
+                          NodeForces& forces) {
+  for (const auto& [coupling, own] : spread) {
+    if (!coupling->surface.empty())
+      addSpreadForce(*coupling, own, step);
+    else if (!own.moment.isZero(0))
+      refuse(coupling->place,
+             "*DISTRIBUTING COUPLING: it passes on forces alone, and there is a moment; write "
+             "*COUPLING and *DISTRIBUTING");
+    for (const auto& [node, weight] : coupling->weights) {
+      if (bodies_.ofNode(node).empty())
+        refuse(coupling->place, "*DISTRIBUTING COUPLING: node " + std::to_string(node) +
+                                    " belongs to no element; leave it out");
+      forces.try_emplace(node, Eigen::Vector3d::Zero()).first->second += weight * own.force;
+    }
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A force and a moment on a surface as a traction that varies linearly along it, f + θ × (x − c), c being the
-/// surface's centre: the forces at nodes balance both to round-off.
+/// A force and a moment on a surface as a traction that varies linearly along it, f + θ × (x − c), c being
+/// the surface's centre: the forces at nodes balance both to round-off.
 
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/SolidBody.hpp"

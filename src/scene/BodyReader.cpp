@@ -212,14 +212,12 @@ void readPlace(const ListReader& list, const Body& body, fem::SolidLoad& load) {
   } else if (load.kind == Kind::point) {
     list.require("Point", " of a load of the kind \"point\" without a \"Surface\"");
     load.point = list.vector("Point", dimensionOf(body));
-  } else if (load.kind == Kind::distributed) {
-    list.require("Surface");
-    load.where = list.word("Surface");
-    readMoment(list, body, load);
   } else {
     if (load.kind != Kind::temperature)
       list.require("Surface");
     load.where = list.word("Surface");
+    if (load.kind == Kind::distributed)
+      readMoment(list, body, load);
   }
 }
 
