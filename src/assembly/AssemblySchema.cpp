@@ -6,7 +6,6 @@
 #include "epafi/base/Text.hpp"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace epafi::assembly {
@@ -91,7 +90,7 @@ ParameterList withAssembly(ParameterList schema) {
       .setParameters(assemblySchema());
   ParameterList& body = schema.sublist("Bodies").sublist("<body>");
   addChoice(body, "Material", "", "Of a STEP file: what the body is made of, see Assembly.", materialNames());
-  return withAutomatic(std::move(schema));
+  return withAutomatic(schema);
 }
 
 } // namespace epafi::assembly
