@@ -108,9 +108,8 @@ std::string partOf(const std::string& name) {
 
 /// Facets must not be off by so much that one cannot tell whether surfaces are near.
 void refuseCoarse(const Assembly& assembly, const std::vector<FacePair>& pairs, double distance) {
-  constexpr double small = 0.25; // share of the distance
   for (const FacePair& pair : pairs)
-    if (pair.sag > small * distance) {
+    if (pair.sag > smallSag * distance) {
       const Face &first = assembly.faces[pair.first], &second = assembly.faces[pair.second];
       throw InputError(
           "whether " + inQuotes(first.group) + " of " + inQuotes(nameOf(assembly, pair.first)) + " and " +

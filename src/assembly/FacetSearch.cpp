@@ -214,7 +214,8 @@ void FacetPairs::look(int a, int b) {
   pair.leastGap = std::min(pair.leastGap, least);
   pair.largestGap = std::max(pair.largestGap, least);
   pair.sag = nearest.opposite.sag;
-  const bool mayBeNear = std::abs(least) - nearest.opposite.sag <= distance_;
+  const double unsure = pair.sag > smallSag * distance_ ? pair.sag : 0;
+  const bool mayBeNear = std::abs(least) - unsure <= distance_;
   (mayBeNear ? assembly.pairs : assembly.nearMisses).push_back(pair);
 }
 
