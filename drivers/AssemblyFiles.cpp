@@ -1,6 +1,7 @@
 #include "AssemblyFiles.hpp"
 
 #include "DeckFiles.hpp"
+#include "FoundPairs.hpp"
 
 #include "epafi/assembly/AssemblyReader.hpp"
 #include "epafi/assembly/AssemblyScene.hpp"
@@ -37,8 +38,8 @@ ParameterList writtenIn(const Options& options, const Comm& comm) {
   const bool isAssembly = meshing::isStep(options.scene);
   const std::string& file = isAssembly ? options.completion : options.scene;
   ParameterList list = file.empty() ? ParameterList("Epafi") : scene::readParameterFile(file, comm);
-  const ParameterList schema =
-      isAssembly ? assembly::withAssembly(simulation::driverSchema()) : simulation::driverSchema();
+  const ParameterList schema = isAssembly ? assembly::withAssembly(simulation::driverSchema())
+                                          : assembly::withAutomatic(simulation::driverSchema());
   for (const std::string& text : options.overrides)
     scene::applyOverride(list, schema, text);
   return list;
@@ -55,9 +56,11 @@ assembly::Assembly assemblyOf(const Options& options, const ParameterList& writt
 } // namespace
 
 GivenScene readGiven(const Options& options, const Comm& comm) {
-  const ParameterList written = writtenIn(options, comm);
-  if (!meshing::isStep(options.scene))
-    return {written, notesOf(options.scene)};
+  ParameterList written = writtenIn(options, comm);
+  if (!meshing::isStep(options.scene)) {
+    const std::string found = takeFoundPairs(written, options.scene, comm);
+    return {written, notesOf(options.scene) + underWord("pairs", found)};
+  }
   const assembly::AssemblyScene made = sceneOf(assemblyOf(options, written, comm), written,
                                                fs::path(options.scene).filename().string(), placeOf(options));
   return {made.scene, underWord("assembly", made.notes)};
@@ -65,12 +68,35 @@ GivenScene readGiven(const Options& options, const Comm& comm) {
 
 std::string listOf(const Options& options, const Comm& comm) {
   const ParameterList written = writtenIn(options, comm);
+  if (!meshing::isStep(options.scene)) {
+    const FoundPairs found = findPairs(written, options.scene, comm, options.list);
+    return options.printPairs ? scene::xmlText(found.contacts) : found.faces + found.notes;
+  }
   const assembly::Assembly assembly = assemblyOf(options, written, comm);
   std::string notes;
   const ParameterList pairs = pairsOf(assembly, written, placeOf(options), notes);
   if (options.printPairs)
     return scene::xmlText(pairs);
   return overviewOf(assembly) + tableOf(assembly) + notes;
+}
+
+void showFaces(const Options& options, const RCP<const Comm>& comm) {
+  if (!options.show.ends_with(".svg"))
+    throw InputError("option --show writes a picture, whose name should end in .svg, not " +
+                     inQuotes(options.show));
+  const ParameterList written = writtenIn(options, *comm);
+  std::string picture; // on rank 0
+  if (meshing::isStep(options.scene)) {
+    const assembly::Assembly assembly = assemblyOf(options, written, *comm);
+    collectively(*comm, [&] {
+      if (comm->getRank() == 0)
+        picture = pictureOfStep(options.scene, assembly);
+    });
+  } else
+    picture = findPairs(written, options.scene, *comm, true).picture;
+  output::FileSet files(comm);
+  files.write(options.show, [&] { return picture; });
+  files.publish();
 }
 
 void exportAssembly(const Options& options, const RCP<const Comm>& comm) {

@@ -24,6 +24,10 @@ GivenScene readGiven(const Options& options, const Comm& comm);
 /// What --list and --print-pairs print. Likewise.
 std::string listOf(const Options& options, const Comm& comm);
 
+/// Writes a picture of the faces. Collective. \throws InputError as readGiven, or if the file's name does not
+/// end in .svg, Error if it cannot be written
+void showFaces(const Options& options, const RCP<const Comm>& comm);
+
 /// Writes a STEP file and what completes it as one scene. Collective. \throws InputError as readGiven, or if
 /// the file's name does not end in .xml, Error if it cannot be written
 void exportAssembly(const Options& options, const RCP<const Comm>& comm);

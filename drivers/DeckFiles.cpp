@@ -44,6 +44,10 @@ std::string notesOf(const std::string& scene) {
   return notes;
 }
 
+std::vector<std::vector<GlobalOrdinal>> nodeNumbersOf(const std::string& scene) {
+  return deck::isDeck(scene) ? modelIn(scene).nodeNumbers : std::vector<std::vector<GlobalOrdinal>>();
+}
+
 output::FrdNumbering numberingOf(const std::string& scene) {
   if (!deck::isDeck(scene))
     return {};

@@ -6,6 +6,7 @@
 #include "epafi/output/FrdFile.hpp"
 
 #include <string>
+#include <vector>
 
 namespace epafi::drivers {
 
@@ -13,6 +14,9 @@ namespace epafi::drivers {
 /// all.
 /// \throws InputError as deck::readDeck. Not collective.
 std::string notesOf(const std::string& scene);
+
+/// Of each body of a deck the deck's numbers of its nodes; of another scene none. Not collective.
+std::vector<std::vector<GlobalOrdinal>> nodeNumbersOf(const std::string& scene);
 
 /// The deck's numbers of nodes and elements; of another scene none. A node that several bodies share keeps
 /// its number in the first, and gets one behind all others in the rest. Not collective.

@@ -40,6 +40,7 @@ Options parseOptions(int argc, const char* const* argv) {
       .value("--frd", options.frd)
       .value("--dat", options.dat)
       .value("--export", options.exported)
+      .value("--show", options.show)
       .value("--restart", options.restart)
       .value("--checkpoint-interval",
              [&](const std::string& text) { options.checkpointInterval = secondsOf(text); })
@@ -59,9 +60,6 @@ Options parseOptions(int argc, const char* const* argv) {
         options.scene = word;
       });
   options.help = line.parse(argc, argv);
-  if ((options.list || options.printPairs) && !meshing::isStep(options.scene))
-    throw InputError("options --list and --print-pairs are for STEP files (.step), but '" + options.scene +
-                     "' is none");
   if (!options.dat.empty() && !deck::isDeck(options.scene))
     throw InputError("option --dat is for input decks, but '" + options.scene + "' is none (.inp)");
   if (options.scene.empty() && !options.printParameters && !options.help && !options.version)
@@ -89,8 +87,9 @@ std::string usage() {
          "  --export SCENE.xml                     write a deck as a scene with its mesh beside it, "
          "SCENE.msh, or\n"
          "                                         an assembly as a whole scene, and solve nothing\n"
-         "  --list                                 print bodies, faces in words and pairs of a STEP file\n"
-         "  --print-pairs                          print the pairs that are found in it as XML to paste\n"
+         "  --list                                 print bodies, faces in words and pairs that are found\n"
+         "  --show FILE.svg                        draw bodies and faces with the numbers that --list has\n"
+         "  --print-pairs                          print the pairs that are found as XML to paste\n"
          "  --restart CHECKPOINT                   go on from a checkpoint of this scene, on any number of "
          "ranks\n"
          "  --checkpoint-interval SECONDS          time between checkpoints (600); 0: only at the end\n"

@@ -14,6 +14,7 @@ struct Options {
   std::string output;                 ///< --output DIR; empty: no files
   std::string report;                 ///< --report FILE; empty: only DIR/report.xml
   std::string exported;               ///< --export FILE; empty: none, the scene is solved
+  std::string show;                   ///< --show FILE; empty: none, the scene is solved
   std::string frd;                    ///< --frd FILE; empty: none
   std::string dat;                    ///< --dat FILE; empty: none
   std::string restart;                ///< --restart FILE, a checkpoint; empty: from the beginning

@@ -140,6 +140,10 @@ int run(int argc, char** argv, const RCP<const Comm>& comm) {
     const std::string text = listOf(options, *comm);
     return comm->getRank() > 0 || print(text) ? solved : notConverged;
   }
+  if (!options.show.empty() && !options.help) {
+    showFaces(options, comm);
+    return solved;
+  }
   if (!options.exported.empty() && !options.help) {
     if (meshing::isStep(options.scene))
       exportAssembly(options, comm);

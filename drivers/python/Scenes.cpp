@@ -1,9 +1,11 @@
 #include "Arrays.hpp"
 #include "Doors.hpp"
+#include "FoundPairs.hpp"
 #include "Summary.hpp"
 #include "Task.hpp"
 #include "Watch.hpp"
 
+#include "epafi/assembly/AssemblySchema.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/output/BodyFields.hpp"
 #include "epafi/output/ContactFields.hpp"
@@ -175,7 +177,8 @@ std::unique_ptr<Run> solveScene(const std::string& text, const std::string& file
     Teuchos::ParameterList given =
         text.empty() ? scene::readParameterFile(file, *comm) : scene::parseParameters(text, file);
     for (const std::string& assignment : overrides)
-      scene::applyOverride(given, simulation::driverSchema(), assignment);
+      scene::applyOverride(given, assembly::withAutomatic(simulation::driverSchema()), assignment);
+    drivers::takeFoundPairs(given, file, *comm);
     const auto keep = [&](const simulation::SceneRun& stage) { stages.push_back(fieldsOf(stage)); };
     simulation::SceneRun run =
         drivers::solveTask(drivers::readTask(given, file), comm, &watch, {.mesh = {}, .step = keep});

@@ -28,6 +28,8 @@ void requireCovered(const BoundCells& cells) {
   for (const SolidLoad& load : cells.body().loads) {
     if (load.kind == SolidLoad::Kind::point)
       refuse(cells, "forces at points");
+    if (load.kind == SolidLoad::Kind::distributed)
+      refuse(cells, "loads of the kind distributed");
     if (load.kind == SolidLoad::Kind::temperature)
       refuse(cells, "changes of temperature");
     if (load.kind == SolidLoad::Kind::rotation)

@@ -198,7 +198,7 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
     collectively(comm, [&] {
       const meshing::GmshFile mesh(meshing::readMsh(geometry, std::move(text)));
       for (const std::size_t b : bodies) {
-        SimplexMesh finer = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
+        SimplexMesh finer = simplicesOf(mesh.body(scene_.bodies[b].mesh, 2));
         ancestors[b] = elementsAround(finer, meshes_[b]);
         meshes_[b] = std::move(finer);
         made += static_cast<double>(meshes_[b].elements.size());

@@ -63,6 +63,7 @@ void visit(Archive& archive, Face& face) {
   visit(archive, face.axis);
   visit(archive, face.onAxis);
   archive(face.radius);
+  archive(face.group);
 }
 
 template <class Archive>
@@ -80,6 +81,7 @@ void visit(Archive& archive, FacePair& pair) {
   archive(pair.leastGap);
   archive(pair.largestGap);
   visit(archive, pair.closest);
+  archive(pair.sag);
 }
 
 template <class Archive, class T>

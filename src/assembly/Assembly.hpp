@@ -12,14 +12,15 @@
 namespace epafi::assembly {
 
 struct Face {
-  int number = 0;   ///< Gmsh's; the mesh has the group "face 12"
+  int number = 0;   ///< of a STEP file Gmsh's
   int solid = 0;    ///< index into Assembly::solids
   std::string kind; ///< plane, cylinder, cone, sphere, torus or surface
   double area = 0;
-  Point centre{};    ///< of area
-  Vector3 axis{};    ///< the outward normal of a plane, the direction of a cylinder's axis; 0 otherwise
-  Point onAxis{};    ///< a point of a cylinder's axis, a sphere's centre
-  double radius = 0; ///< of cylinders and spheres
+  Point centre{};      ///< of area
+  Vector3 axis{};      ///< the outward normal of a plane, the direction of a cylinder's axis; 0 otherwise
+  Point onAxis{};      ///< a point of a cylinder's axis, a sphere's centre
+  double radius = 0;   ///< of cylinders and spheres
+  std::string group{}; ///< what the mesh calls it
 };
 
 /// A corner of solids, where edges meet, or a round one begins; the mesh has the group "point 3".
@@ -41,11 +42,12 @@ struct FacePair {
   double area = 0;           ///< of the first, as far as it is near
   /// Distances where they are near, overlaps negative; of a near miss twice the least.
   double leastGap = 0, largestGap = 0;
-  Point closest{}; ///< where the least is, on the first
+  Point closest{}; ///< where the least is, on either
+  double sag = 0;  ///< by how much facets are off the smooth surfaces there, if they were looked at
 };
 
 struct Assembly {
-  std::string unit; ///< of the file
+  std::string unit; ///< of a STEP file
   std::vector<Solid> solids;
   std::vector<Face> faces;
   std::vector<Corner> corners;

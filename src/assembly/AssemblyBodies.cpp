@@ -16,10 +16,6 @@ namespace {
 using Teuchos::ParameterList;
 using Numbers = Teuchos::Array<double>;
 
-std::string groupOf(const Face& face) {
-  return "face " + std::to_string(face.number);
-}
-
 /// What one line says of one face or corner, before it is known of which body it becomes a support.
 struct Held {
   const Assembly& assembly;
@@ -133,7 +129,7 @@ void BodyMaker::merge(const ParameterList& given, int solid) {
         continue;
       }
       for (const int face : facesOf(assembly_, list.get<std::string>("Surface"), solid)) {
-        const std::string group = groupOf(assembly_.faces[face]);
+        const std::string group = assembly_.faces[face].group;
         own.sublist(kind).sublist(entry.first + ", " + group).setParameters(list).set("Surface", group);
       }
     }
@@ -163,7 +159,7 @@ std::vector<int> BodyMaker::found(const std::string& words) {
   const std::vector<int> faces = facesOf(assembly_, words);
   std::vector<std::string> names;
   for (const int face : faces)
-    names.push_back(groupOf(assembly_.faces[face]));
+    names.push_back(assembly_.faces[face].group);
   if (const std::string note = inQuotes(words) + " is " + listed(names) + '\n';
       notes_.find(note) == std::string::npos)
     notes_ += note;
@@ -193,7 +189,7 @@ void BodyMaker::addSupports(const ParameterList& lines) {
     }
     for (const int f : found(words)) {
       const Face& face = assembly_.faces[f];
-      Held{assembly_, words, &face}.read(value, entryFor("Supports", words, face.solid, groupOf(face)));
+      Held{assembly_, words, &face}.read(value, entryFor("Supports", words, face.solid, face.group));
     }
   }
 }
@@ -212,7 +208,7 @@ void BodyMaker::addLoads(const ParameterList& lines, bool isForce) {
       area += assembly_.faces[face].area;
     for (const int f : faces) {
       const Face& face = assembly_.faces[f];
-      ParameterList& load = entryFor("Loads", words, face.solid, groupOf(face));
+      ParameterList& load = entryFor("Loads", words, face.solid, face.group);
       load.set("Kind", isForce ? "traction" : "pressure");
       if (!isForce) {
         load.set("Value", Teuchos::getValue<double>(line.second));

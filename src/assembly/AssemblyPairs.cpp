@@ -61,7 +61,7 @@ std::pair<int, int> resolve(const Assembly& assembly, ParameterList& pair) {
                        " is several bodies, but a side of a pair is one");
     faces[i] = faceOf(assembly, pair, side, solids.front());
     pair.set(body, nameOf(assembly, faces[i]));
-    pair.set(side + " Surface", "face " + std::to_string(assembly.faces[faces[i]].number));
+    pair.set(side + " Surface", assembly.faces[faces[i]].group);
   }
   return key(faces[0], faces[1]);
 }
@@ -69,6 +69,9 @@ std::pair<int, int> resolve(const Assembly& assembly, ParameterList& pair) {
 /// Faces of a body, or those that words name.
 std::set<int> facesIn(const Assembly& assembly, const std::string& words) {
   std::set<int> faces;
+  for (int f = 0; f < std::ssize(assembly.faces); ++f)
+    if (words == nameOf(assembly, f) + '/' + assembly.faces[f].group)
+      return {f};
   if (words.find('/') != std::string::npos) {
     for (const int face : facesOf(assembly, words))
       faces.insert(face);
@@ -103,12 +106,31 @@ std::string partOf(const std::string& name) {
              : name;
 }
 
+/// Facets must not be off by so much that one cannot tell whether surfaces are near.
+void refuseCoarse(const Assembly& assembly, const std::vector<FacePair>& pairs, double distance) {
+  for (const FacePair& pair : pairs)
+    if (pair.sag > smallSag * distance) {
+      const Face &first = assembly.faces[pair.first], &second = assembly.faces[pair.second];
+      throw InputError(
+          "whether " + inQuotes(first.group) + " of " + inQuotes(nameOf(assembly, pair.first)) + " and " +
+          inQuotes(second.group) + " of " + inQuotes(nameOf(assembly, pair.second)) +
+          " touch cannot be told: near " + text(pair.closest, 4) +
+          " their facets are off the round surfaces by " + text(pair.sag, 2) +
+          ", which is not small beside the Distance of " + text(distance, 3) +
+          " up to which pairs are found; mesh them finer or in order 2, give a greater Distance, "
+          "name the pair by hand, or leave it out by Exclude");
+    }
+}
+
 std::string gapsOf(const FacePair& pair, double length) {
   const auto rounded = [&](double gap) { return text(std::abs(gap) < 1e-7 * length ? 0 : std::abs(gap), 3); };
   const std::string least = rounded(pair.leastGap), largest = rounded(pair.largestGap);
+  const double size = std::max(std::abs(pair.leastGap), std::abs(pair.largestGap));
+  const std::string sag =
+      pair.sag > std::max(0.05 * size, 1e-7 * length) ? ", facets off by up to " + text(pair.sag, 2) : "";
   if (pair.leastGap < -1e-7 * length)
-    return "overlap " + least;
-  return least == largest ? "gap " + least : "gap " + least + " to " + largest;
+    return "overlap " + least + sag;
+  return (least == largest ? "gap " + least : "gap " + least + " to " + largest) + sag;
 }
 
 } // namespace
@@ -141,7 +163,7 @@ int elementsAroundFor(const Assembly& assembly) {
 ParameterList contactsOf(const Assembly& assembly, const ParameterList& given, const ParameterList& automatic,
                          std::string& notes) {
   ParameterList contacts("Contact");
-  std::set<std::pair<int, int>> known;
+  FacesInPairs known;
   for (const auto& entry : given) {
     if (!entry.second.isList())
       throw InputError("list \"Contact\" holds the parameter " + inQuotes(entry.first) +
@@ -150,12 +172,19 @@ ParameterList contactsOf(const Assembly& assembly, const ParameterList& given, c
     pair.setParameters(Teuchos::getValue<ParameterList>(entry.second));
     known.insert(resolve(assembly, pair));
   }
+  addFoundPairs(assembly, automatic, known, contacts, notes);
+  return contacts;
+}
+
+void addFoundPairs(const Assembly& assembly, const ParameterList& automatic, const FacesInPairs& known,
+                   ParameterList& contacts, std::string& notes) {
   std::vector<FacePair> pairs = assembly.pairs;
   std::erase_if(pairs, [&](const FacePair& pair) { return known.contains(key(pair.first, pair.second)); });
   std::istringstream excluded(automatic.get<std::string>("Exclude"));
   for (std::string item; std::getline(excluded, item, ',');)
     exclude(assembly, trimmed(item), pairs);
   const auto searchDistance = PairSearch{automatic.get<double>("Distance")}.distanceIn(assembly);
+  refuseCoarse(assembly, pairs, searchDistance);
   for (const FacePair& pair : pairs) {
     const Face &first = assembly.faces[pair.first], &second = assembly.faces[pair.second];
     std::string name = nameOf(assembly, pair.first) + " - " + nameOf(assembly, pair.second);
@@ -165,9 +194,9 @@ ParameterList contactsOf(const Assembly& assembly, const ParameterList& given, c
     const auto kind = automatic.get<std::string>(isThread(assembly, pair) ? "Threads" : "Kind");
     contact.set("Kind", kind)
         .set("First Body", nameOf(assembly, pair.first))
-        .set("First Surface", "face " + std::to_string(first.number))
+        .set("First Surface", first.group)
         .set("Second Body", nameOf(assembly, pair.second))
-        .set("Second Surface", "face " + std::to_string(second.number));
+        .set("Second Surface", second.group);
     if (const double friction = automatic.get<double>("Friction"); friction > 0 && kind == "contact")
       contact.set("Friction", friction);
     if (isPoint(assembly, pair)) // what is far apart stays so
@@ -181,7 +210,6 @@ ParameterList contactsOf(const Assembly& assembly, const ParameterList& given, c
              (automatic.get<std::string>("Threads") == "tied"
                   ? "taken for threads and tied; Threads = contact takes them for fits\n"
                   : "taken for fits; Threads = tied takes them for threads\n");
-  return contacts;
 }
 
 std::string wordsOfPairs(const Assembly& assembly, const std::vector<FacePair>& pairs) {
@@ -213,8 +241,8 @@ std::string wordsOfNearMisses(const Assembly& assembly) {
   for (const auto& [shown, found] : count)
     lines += std::to_string(found.first) +
              (found.first == 1 ? " pair of faces is " : " pairs of faces are ") + shown +
-             " mm apart: a Distance of " + text(1.2 * found.second, 2) + " takes " +
-             (found.first == 1 ? "it" : "them") + " in\n";
+             (assembly.unit.empty() ? "" : " mm") + " apart: a Distance of " + text(1.2 * found.second, 2) +
+             " takes " + (found.first == 1 ? "it" : "them") + " in\n";
   return lines;
 }
 

@@ -6,7 +6,10 @@
 
 #include <Teuchos_ParameterList.hpp>
 
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace epafi::assembly {
 
@@ -25,6 +28,14 @@ int elementsAroundFor(const Assembly& assembly);
 /// \throws InputError, without the name of the file
 Teuchos::ParameterList contactsOf(const Assembly& assembly, const Teuchos::ParameterList& given,
                                   const Teuchos::ParameterList& automatic, std::string& notes);
+
+/// Indices of two faces, the lower first.
+using FacesInPairs = std::set<std::pair<int, int>>;
+
+/// Adds the pairs that were found but for the known and the excluded ones. \throws InputError, without the
+/// name of the file, if facets are too far off for it
+void addFoundPairs(const Assembly& assembly, const Teuchos::ParameterList& automatic,
+                   const FacesInPairs& known, Teuchos::ParameterList& contacts, std::string& notes);
 
 /// Pairs and near misses in lines for people, those of equal parts in one.
 std::string wordsOfPairs(const Assembly& assembly, const std::vector<FacePair>& pairs);

@@ -42,6 +42,7 @@ std::string kindOf(std::string type) {
 Face faceOf(const GmshSession& session, int number, int solid) {
   Face face{number, solid, kindOf(session.kindOf(number)), session.measureOf(2, number),
             session.centreOf(number)};
+  face.group = "face " + std::to_string(number);
   const std::array<double, 4> bounds = session.boundsOf(number);
   const double u = (bounds[0] + bounds[2]) / 2, v = (bounds[1] + bounds[3]) / 2;
   const GmshSession::FacePoint middle = session.pointsOf(number, {u, v}).front();

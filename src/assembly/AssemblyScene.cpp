@@ -81,8 +81,8 @@ PairSearch pairSearchIn(const ParameterList& given, const std::string& where) {
 std::string overviewOf(const Assembly& assembly) {
   const auto [lower, upper] = assembly.box();
   return std::to_string(assembly.solids.size()) + " bodies with " + std::to_string(assembly.faces.size()) +
-         " faces, in mm (file: " + assembly.unit + "), N and MPa; box " + text(lower, 4) + " to " +
-         text(upper, 4) + '\n';
+         " faces" + (assembly.unit.empty() ? "" : ", in mm (file: " + assembly.unit + "), N and MPa") +
+         "; box " + text(lower, 4) + " to " + text(upper, 4) + '\n';
 }
 
 ParameterList pairsOf(const Assembly& assembly, const ParameterList& given, const std::string& where,
@@ -91,6 +91,32 @@ ParameterList pairsOf(const Assembly& assembly, const ParameterList& given, cons
   ParameterList pairs = sublistOf(given, "Contact");
   pairs.remove("Automatic", false);
   return in(where, [&] { return contactsOf(assembly, pairs, automatic, notes); });
+}
+
+ParameterList pairsOf(std::span<const MeshedBody> bodies, const MeshFaces& faces, const ParameterList& given,
+                      const std::string& where, std::string& notes) {
+  const ParameterList automatic = automaticIn(given, where);
+  ParameterList contacts = sublistOf(given, "Contact");
+  contacts.setName("Contact");
+  contacts.remove("Automatic", false);
+  FacesInPairs known;
+  const auto facesAt = [&](const ParameterList& pair, const std::string& side) {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (pair.isType<std::string>(side + " Surface") && pair.isType<std::string>(side + " Body") &&
+          pair.get<std::string>(side + " Body") == bodies[b].name)
+        return faces.facesIn(bodies, static_cast<int>(b), pair.get<std::string>(side + " Surface"));
+    return std::vector<int>();
+  };
+  for (const auto& entry : contacts) {
+    const auto& pair = Teuchos::getValue<ParameterList>(entry.second);
+    for (const int first : facesAt(pair, "First"))
+      for (const int second : facesAt(pair, "Second"))
+        known.insert(std::minmax(first, second));
+  }
+  return in(where, [&] {
+    addFoundPairs(faces.assembly, automatic, known, contacts, notes);
+    return contacts;
+  });
 }
 
 AssemblyScene sceneOf(const Assembly& assembly, const ParameterList& given, const std::string& mesh,

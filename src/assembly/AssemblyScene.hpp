@@ -3,10 +3,12 @@
 /// A STEP file, and the few lines that complete it, as an ordinary scene.
 
 #include "epafi/assembly/Assembly.hpp"
+#include "epafi/assembly/MeshFaces.hpp"
 #include "epafi/assembly/PairSearch.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 
+#include <span>
 #include <string>
 
 namespace epafi::assembly {
@@ -30,6 +32,13 @@ AssemblyScene sceneOf(const Assembly& assembly, const Teuchos::ParameterList& gi
 /// The list Contact of that scene. \param notes  lines for people are added
 Teuchos::ParameterList pairsOf(const Assembly& assembly, const Teuchos::ParameterList& given,
                                const std::string& where, std::string& notes);
+
+/// The list Contact of a scene whose bodies have meshes: its own pairs, and those that are found of its list
+/// Automatic, but for the faces that these name. \param given  the scene  \throws InputError likewise, or if
+/// facets are too coarse
+Teuchos::ParameterList pairsOf(std::span<const MeshedBody> bodies, const MeshFaces& faces,
+                               const Teuchos::ParameterList& given, const std::string& where,
+                               std::string& notes);
 
 /// "2 bodies with 12 faces, in mm …": a line with unit and box.
 std::string overviewOf(const Assembly& assembly);

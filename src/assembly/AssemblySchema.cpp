@@ -52,21 +52,31 @@ ParameterList assemblySchema() {
 
 ParameterList automaticSchema() {
   ParameterList list("Automatic");
-  addReal(list, "Distance", PairSearch().distance,
-          "Up to which distance faces of two bodies are a pair; 0: a thousandth of the assembly's diagonal.",
-          0.0);
+  addReal(
+      list, "Distance", PairSearch().distance,
+      "Up to which distance faces of two bodies are a pair; 0: a thousandth of the diagonal of all bodies.",
+      0.0);
   addReal(list, "Angle", PairSearch().angle,
           "Degrees: by how much the outward normals of both may differ from being opposite.", 0.0, 90.0);
   addChoice(list, "Kind", "contact", "What pairs are, but for threads.", {"contact", "tied"});
   addChoice(list, "Threads", "tied",
-            "What pairs of cylinders are that coincide, as bolts and nuts do that are drawn without threads; "
-            "a fit would be a contact.",
+            "Of a STEP file: what pairs of cylinders are that coincide, as bolts and nuts do that are drawn "
+            "without threads; a fit would be a contact.",
             {"tied", "contact"});
   addReal(list, "Friction", 0.0, "Coulomb's coefficient of pairs in contact.", 0.0);
   list.set("Exclude", "",
            "Pairs that are left out, parted by commas: bodies or faces, one (\"bolt M12:*\") or both "
            "(\"nut M12:1/plane +z - lower flange\").");
   return list;
+}
+
+ParameterList withAutomatic(ParameterList schema) {
+  schema.sublist("Contact")
+      .sublist("Automatic", false,
+               "How pairs of faces are found: always of a STEP file, of other scenes if the list is there. "
+               "Pairs that are given by hand win.")
+      .setParameters(automaticSchema());
+  return schema;
 }
 
 ParameterList withAssembly(ParameterList schema) {
@@ -78,13 +88,9 @@ ParameterList withAssembly(ParameterList schema) {
           "* for any letters. Faces are given in words wherever a surface is named: a kind, and what "
           "tells it from others, as epafi assembly.step --list shows it.")
       .setParameters(assemblySchema());
-  schema.sublist("Contact")
-      .sublist("Automatic", false,
-               "Of a STEP file: how pairs of faces are found. Pairs that are given by hand win.")
-      .setParameters(automaticSchema());
   ParameterList& body = schema.sublist("Bodies").sublist("<body>");
   addChoice(body, "Material", "", "Of a STEP file: what the body is made of, see Assembly.", materialNames());
-  return schema;
+  return withAutomatic(schema);
 }
 
 } // namespace epafi::assembly

@@ -191,7 +191,8 @@ std::string tableOf(const Assembly& assembly) {
   std::ostringstream table;
   for (int f = 0; f < std::ssize(assembly.faces); ++f) {
     const Face& face = assembly.faces[f];
-    const std::string words = assembly.solids[face.solid].name + '/' + wordsOf(assembly, f);
+    const std::string words =
+        assembly.solids[face.solid].name + '/' + (assembly.unit.empty() ? face.group : wordsOf(assembly, f));
     table << "  " << std::left << std::setw(44) << words << " face " << std::setw(5) << face.number << ' '
           << "area " << std::setw(9) << shown(face.area, 0) << " centre " << placeOf(assembly, face) << '\n';
   }

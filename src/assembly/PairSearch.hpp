@@ -21,6 +21,10 @@ struct PairSearch {
 /// How much farther faces are told of as near misses.
 constexpr double nearMissFactor = 5;
 
+/// Share of the distance up to which facets may be off round surfaces: beyond that nobody can tell what is
+/// near.
+constexpr double smallSag = 0.25;
+
 /// Fills in pairs and near misses, in the order of their faces. Faces are near by their least distance, not
 /// by their area: a ball on a plane is.
 void findPairs(const meshing::GmshSession& session, const PairSearch& search, Assembly& assembly);

@@ -54,9 +54,17 @@ std::pair<int, int> componentsOf(const Fields& fields) {
   return {first, first > 3 ? last : std::min(last, 3)};
 }
 
-int forceComponent(const Fields& fields) {
+bool standsForOthers(const Deck& deck, GlobalOrdinal node) {
+  return std::any_of(deck.couplings.begin(), deck.couplings.end(),
+                     [&](const Coupling& coupling) { return coupling.node == node; });
+}
+
+int forceComponent(const Deck& deck, const Fields& fields, const std::vector<GlobalOrdinal>& nodes) {
   const int component = fields.integer(1, "a component, 1 ... 3");
-  if (component < 1 || component > 3)
+  const auto mayTurn = [&](GlobalOrdinal node) { return standsForOthers(deck, node); };
+  const bool isMoment =
+      component > 3 && component <= lastRotation && std::all_of(nodes.begin(), nodes.end(), mayTurn);
+  if (!isMoment && (component < 1 || component > 3))
     fields.refuse(
         "its component is " + std::to_string(component) +
         ", and forces on nodes have those of 1 ... 3 (bodies are solids, whose nodes take no moments)");
@@ -77,6 +85,10 @@ void readBoundary(Reading& reading, const Card& card) {
     const auto [first, last] = componentsOf(fields);
     const double value = fields.realOr(3, "a displacement", 0);
     std::vector<GlobalOrdinal> nodes = reading.nodes(fields, 0);
+    for (const GlobalOrdinal node : nodes)
+      if (standsForOthers(reading.deck, node))
+        fields.refuse("node " + std::to_string(node) +
+                      " stands for others, and passes forces on alone; hold these nodes themselves");
     if (first <= 3)
       boundaries.push_back({line.place(), std::move(nodes), first, last, value, timing.amplitude,
                             card.has("FIXED"), timing.delay});
@@ -93,10 +105,11 @@ void readNodeForce(Reading& reading, const Card& card) {
   for (const Line& line : card.data) {
     const Fields fields(card, line);
     fields.requireAtMost(3);
-    const int component = forceComponent(fields);
+    std::vector<GlobalOrdinal> nodes = reading.nodes(fields, 0);
+    const int component = forceComponent(reading.deck, fields, nodes);
     const double value = fields.real(2, "a force");
     reading.step().forces.push_back(
-        {line.place(), reading.nodes(fields, 0), component, value, timing.amplitude, timing.delay});
+        {line.place(), std::move(nodes), component, value, timing.amplitude, timing.delay});
   }
 }
 

@@ -14,6 +14,11 @@ void readTemperature(Reading& reading, const Card& card);
 void readInitialConditions(Reading& reading, const Card& card);
 
 void readEquation(Reading& reading, const Card& card);
+/// Whether elements of a type are no solids, but nodes that stand for others.
+bool isCoupling(const std::string& elementType);
+void readCoupling(Reading& reading, const Card& card);
+void readDistributing(Reading& reading, const Card& card);
+void readDistributingCoupling(Reading& reading, const Card& card);
 void readTransform(Reading& reading, const Card& card);
 void readAmplitude(Reading& reading, const Card& card);
 

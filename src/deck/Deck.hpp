@@ -110,6 +110,15 @@ struct Equation {
   std::vector<Term> terms;
 };
 
+/// A node that stands for others: forces on it are theirs.
+struct Coupling {
+  Place place;
+  GlobalOrdinal node = 0; ///< the reference node
+  /// *COUPLING with *DISTRIBUTING: what takes force and moment, linearly in place; else empty.
+  std::string surface;
+  std::map<GlobalOrdinal, double> weights; ///< *DISTRIBUTING COUPLING: shares of the force; their sum is 1
+};
+
 /// A factor over time, linear between the points.
 struct Amplitude {
   Place place;
@@ -171,7 +180,7 @@ struct Boundary {
 struct NodeForce {
   Place place;
   std::vector<GlobalOrdinal> nodes;
-  int component = 1; ///< 1 ... 3
+  int component = 1; ///< 1 ... 3; of nodes that stand for a surface also 4 ... 6, moments
   double value = 0;
   std::string amplitude;
   double delay = 0;
@@ -254,6 +263,7 @@ struct Deck {
   std::vector<Section> sections;
   std::vector<Transform> transforms;
   std::vector<Equation> equations;
+  std::vector<Coupling> couplings;
   std::map<std::string, Amplitude> amplitudes;
   std::map<std::string, Interaction> interactions;
   std::vector<ContactPair> contacts;

@@ -46,6 +46,9 @@ const std::vector<Heeded> heededKeywords{
     {"BEAM SECTION", Where::model, {"ELSET", "MATERIAL", "ORIENTATION", "SECTION"}, readOtherSection},
     {"TRANSFORM", Where::model, {"NSET", "TYPE"}, readTransform},
     {"EQUATION", Where::model, {}, readEquation},
+    {"COUPLING", Where::model, {"CONSTRAINTNAME", "REFNODE", "SURFACE"}, readCoupling},
+    {"DISTRIBUTING", Where::model, {}, readDistributing},
+    {"DISTRIBUTING COUPLING", Where::model, {"ELSET"}, readDistributingCoupling},
     {"AMPLITUDE", Where::anywhere, {"NAME", "TIME", "DEFINITION", "USER", "SHIFTX", "SHIFTY"}, readAmplitude},
     {"SURFACE INTERACTION", Where::model, {"NAME"}, readInteraction},
     {"SURFACE BEHAVIOR", Where::model, {"PRESSURE-OVERCLOSURE"}, readSurfaceBehavior},
@@ -123,6 +126,9 @@ void readCard(Reading& reading, const Card& card) {
   const Heeded& heeded = *findHeeded(card.keyword);
   checkPlace(reading, card, heeded.where);
   checkParameters(reading, card, heeded);
+  if (reading.awaitsDistributing && card.keyword != "DISTRIBUTING")
+    throw InputError(text(reading.deck.couplings.back().place) +
+                     ": *COUPLING: behind it belongs *DISTRIBUTING, by which the node passes forces on");
   heeded.read(reading, card);
 }
 
@@ -137,6 +143,9 @@ void checkSurfaces(const Reading& reading) {
     requireFaces(pair.place, pair.independent, "the independent (master) side");
   for (const Tie& tie : reading.deck.ties)
     requireFaces(tie.place, tie.independent, "the independent (master) side");
+  for (const Coupling& coupling : reading.deck.couplings)
+    if (!coupling.surface.empty())
+      requireFaces(coupling.place, coupling.surface, "what forces are spread over");
   for (const Pretension& pretension : reading.deck.pretensions)
     if (!pretension.surface.empty())
       requireFaces(pretension.place, pretension.surface, "the section of the bolt");

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/deck/ConditionCards.hpp"
 #include "epafi/deck/Reading.hpp"
 
 #include <algorithm>
@@ -81,8 +82,8 @@ const std::array refusedKeywords{
                      "DEFORMATION PLASTICITY", "MOHR COULOMB", "MOHR COULOMB HARDENING", "RATE DEPENDENT",
                      "DEPVAR", "VISCOELASTIC", "DRUCKER PRAGER", "CONCRETE", "NO COMPRESSION", "FAIL STRESS"},
                     "bodies are linearly elastic here; take it out, and leave the material its *ELASTIC"},
-    RefusedKeywords{{"MPC", "RIGID BODY", "COUPLING", "KINEMATIC", "DISTRIBUTING", "DISTRIBUTING COUPLING",
-                     "KINEMATIC COUPLING", "NETWORK MPC", "EMBEDDED ELEMENT", "RELEASE"},
+    RefusedKeywords{{"MPC", "RIGID BODY", "KINEMATIC", "KINEMATIC COUPLING", "NETWORK MPC",
+                     "EMBEDDED ELEMENT", "RELEASE"},
                     "such joints of nodes are not read; write *EQUATION, *TIE or *BOUNDARY"},
     RefusedKeywords{
         {"CYCLIC SYMMETRY MODEL"},
@@ -249,7 +250,8 @@ std::optional<Refusal> refusalOf(const Card& card) {
   for (const RefusedParameter& refused : refusedParameters)
     if (isRefused(card, refused))
       return Refusal{nameWith(card, refused), card.place, refused.reason};
-  if (card.keyword == "ELEMENT" && findElementType(card.required("TYPE")) == nullptr)
+  if (card.keyword == "ELEMENT" && findElementType(card.required("TYPE")) == nullptr &&
+      !isCoupling(card.required("TYPE")))
     return Refusal{card.shown + ", TYPE=" + shortened(card.value("TYPE")), card.place,
                    reasonOfElement(card.value("TYPE"))};
   return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/SortUnique.hpp"
+#include "epafi/deck/ConditionCards.hpp"
 
 #include <algorithm>
 #include <map>
@@ -160,10 +161,15 @@ void readElements(Reading& reading, const std::vector<Card>& cards) {
     if (card.keyword != "ELEMENT")
       continue;
     const std::string type = card.required("TYPE");
-    auto& [place, elements] =
-        types.try_emplace(type, card.place, std::vector<WrittenElement>()).first->second;
+    std::vector<WrittenElement> couplings;
+    auto& elements =
+        isCoupling(type)
+            ? couplings
+            : types.try_emplace(type, card.place, std::vector<WrittenElement>()).first->second.second;
     const std::size_t before = elements.size();
-    readElementCard(reading, card, findElementType(type)->numNodes, elements);
+    readElementCard(reading, card, isCoupling(type) ? 1 : findElementType(type)->numNodes, elements);
+    for (const WrittenElement& element : couplings)
+      reading.couplingNodes[element.number] = element.nodes.front();
     if (card.has("ELSET")) {
       std::vector<GlobalOrdinal>& set = reading.deck.elementSets[card.required("ELSET")];
       for (std::size_t i = before; i < elements.size(); ++i)

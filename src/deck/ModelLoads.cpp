@@ -46,6 +46,13 @@ int faceOf(const DistributedLoad& load) {
   return load.label.size() == 2 && load.label[0] == 'P' ? load.label[1] - '0' : 0;
 }
 
+/// The one that a node stands for; null: it is a node as others are.
+const Coupling* couplingAt(const Deck& deck, GlobalOrdinal node) {
+  const auto found = std::find_if(deck.couplings.begin(), deck.couplings.end(),
+                                  [&](const Coupling& coupling) { return coupling.node == node; });
+  return found == deck.couplings.end() ? nullptr : &*found;
+}
+
 [[noreturn]] void refuse(const Place& place, const std::string& what) {
   throw InputError(text(place) + ": " + what);
 }
@@ -156,7 +163,8 @@ void ModelMaker::addForces(std::size_t step) {
       for (const GlobalOrdinal node : force.nodes)
         history.add({node, force.component - 1}, &force);
   }
-  std::map<GlobalOrdinal, Eigen::Vector3d> forces;
+  NodeForces forces;
+  std::map<const Coupling*, SpreadForce> spread;
   for (const auto& [key, cards] : history.all())
     for (const NodeForce* card : cards) {
       const double size = card->value * factorAt(card->amplitude, card->delay, step);
@@ -164,12 +172,18 @@ void ModelMaker::addForces(std::size_t step) {
         tension->second[step] += size;
         continue;
       }
+      if (const Coupling* const coupling = couplingAt(deck_, key.first)) {
+        SpreadForce& own = spread[coupling];
+        (key.second < 3 ? own.force : own.moment) += size * axesOf(key.first).col(key.second % 3);
+        continue;
+      }
       if (bodies_.ofNode(key.first).empty())
         refuse(card->place, "*CLOAD: node " + std::to_string(key.first) +
                                 " belongs to no element; a force on it is not solved here");
-      Eigen::Vector3d& force = forces.try_emplace(key.first, Eigen::Vector3d::Zero()).first->second;
-      force += size * axesOf(key.first).col(key.second);
+      forces.try_emplace(key.first, Eigen::Vector3d::Zero()).first->second +=
+          size * axesOf(key.first).col(key.second);
     }
+  shareOut(spread, step, forces);
   std::map<std::pair<int, std::array<double, 3>>, Numbers> groups; // nodes with the same force
   for (const auto& [node, force] : forces)
     if (!force.isZero(0))
@@ -183,6 +197,47 @@ void ModelMaker::addForces(std::size_t step) {
     load.set("Force", firstOf(Eigen::Map<const Eigen::Vector3d>(key.second.data()),
                               bodies_.all()[key.first].type->dimension));
   }
+}
+
+/// What nodes take that stand for others becomes loads on surfaces, or forces of these others.
+void ModelMaker::shareOut(const std::map<const Coupling*, SpreadForce>& spread, std::size_t step,
+                          NodeForces& forces) {
+  for (const auto& [coupling, own] : spread) {
+    if (!coupling->surface.empty())
+      addSpreadForce(*coupling, own, step);
+    else if (!own.moment.isZero(0))
+      refuse(coupling->place,
+             "*DISTRIBUTING COUPLING: it passes on forces alone, and there is a moment; write "
+             "*COUPLING and *DISTRIBUTING");
+    for (const auto& [node, weight] : coupling->weights) {
+      if (bodies_.ofNode(node).empty())
+        refuse(coupling->place, "*DISTRIBUTING COUPLING: node " + std::to_string(node) +
+                                    " belongs to no element; leave it out");
+      forces.try_emplace(node, Eigen::Vector3d::Zero()).first->second += weight * own.force;
+    }
+  }
+}
+
+void ModelMaker::addSpreadForce(const Coupling& coupling, const SpreadForce& spread, std::size_t step) {
+  const std::set<int> bodies = bodiesAt(coupling.surface, nullptr);
+  if (bodies.size() > 1)
+    refuse(coupling.place,
+           "*COUPLING: its surface is of several bodies, between which it is not known how the "
+           "force is shared; give each a node of its own");
+  const ElementForm& type = *bodies_.all()[*bodies.begin()].type;
+  const bool isPlane = type.dimension == 2;
+  if ((isPlane && (spread.moment.head<2>() != Eigen::Vector2d::Zero() || spread.force.z() != 0)) ||
+      (isOfRevolution(type) && (!spread.moment.isZero(0) || spread.force.x() != 0)))
+    refuse(coupling.place,
+           "*COUPLING: a force or moment on its node leads out of what the elements can carry");
+  ParameterList& load = addLoad(*bodies.begin(), step, "distributed");
+  load.set("Surface", coupling.surface);
+  load.set("Force", firstOf(spread.force, type.dimension));
+  if (isOfRevolution(type))
+    return;
+  load.set("Moment", isPlane ? Array<double>(1, spread.moment.z()) : firstOf(spread.moment, 3));
+  load.set("Point",
+           firstOf(Eigen::Map<const Eigen::Vector3d>(pointOf(coupling.node).data()), type.dimension));
 }
 
 void ModelMaker::addPressures(std::size_t step) {

@@ -59,6 +59,12 @@ private:
   [[nodiscard]] Prescribed prescribed() const;
   void addSupports();
   void addForces(std::size_t step);
+  struct SpreadForce {
+    Eigen::Vector3d force{0, 0, 0}, moment{0, 0, 0};
+  };
+  using NodeForces = std::map<GlobalOrdinal, Eigen::Vector3d>;
+  void shareOut(const std::map<const Coupling*, SpreadForce>& spread, std::size_t step, NodeForces& forces);
+  void addSpreadForce(const Coupling& coupling, const SpreadForce& spread, std::size_t step);
   void addPressures(std::size_t step);
   void addBodyForces(std::size_t step);
   Teuchos::ParameterList& addLoad(int body, std::size_t step, const std::string& kind);

@@ -6,6 +6,7 @@
 #include "epafi/deck/Deck.hpp"
 #include "epafi/deck/Fields.hpp"
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,7 +29,9 @@ struct Reading {
 
   Material* material = nullptr;       ///< that property cards are of
   Interaction* interaction = nullptr; ///< likewise
-  bool isInStep = false, hasProcedure = false, isNonlinear = false, awaitsFriction = false;
+  bool isInStep = false, hasProcedure = false, isNonlinear = false, awaitsFriction = false,
+       awaitsDistributing = false;
+  std::map<GlobalOrdinal, GlobalOrdinal> couplingNodes; ///< of elements DCOUP3D
 
   /// References to what may be defined later.
   struct Reference {

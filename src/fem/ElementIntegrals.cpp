@@ -279,6 +279,25 @@ void tractionLoad(mesh::CellType facet, std::span<const Point> points, Physics p
   });
 }
 
+std::vector<FacetSample> facetSamples(mesh::CellType facet, std::span<const Point> points, Physics physics,
+                                      const Material& material) {
+  assert(boundsElement(facet, physics));
+  std::vector<FacetSample> samples;
+  withFacetShape(facet, [&]<int dim>(const mesh::Shape<dim>& shape) {
+    const auto corners = mesh::relativeCorners<dim + 1>(points);
+    for (const auto& sample : shape.revolvedSamples()) {
+      Eigen::Vector3d place(points[0].data());
+      place.template head<dim + 1>() += corners.lazyProduct(sample.values);
+      if constexpr (dim == 1)
+        place.z() = 0;
+      samples.push_back({thicknessOf(physics, material) * factorAt(physics, points, sample.values) *
+                             sample.weight * facetNormal(corners, sample).norm(),
+                         place, sample.values});
+    }
+  });
+  return samples;
+}
+
 void pressureLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
                   const Material& material, double pressure, Eigen::VectorXd& load, Integration integration) {
   assert(boundsElement(facet, physics) && physics != Physics::membrane);

@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 #include <span>
+#include <vector>
 
 namespace epafi::fem {
 
@@ -71,6 +72,15 @@ void thermalLoad(mesh::CellType type, std::span<const Point> points, Physics phy
 void tractionLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
                   const Material& material, const Vector3& traction, Eigen::VectorXd& load,
                   Integration integration = Integration::full);
+
+/// A point of a rule that is exact for tractions linear in place, on facets with straight edges.
+struct FacetSample {
+  double weight; ///< with thickness, or circumference
+  Eigen::Vector3d place;
+  Eigen::VectorXd values; ///< N_a
+};
+std::vector<FacetSample> facetSamples(mesh::CellType facet, std::span<const Point> points, Physics physics,
+                                      const Material& material);
 
 /// −t∫N_a p n of a constant pressure p against the outward normal n, that of each point of the face. Exact by
 /// full integration. `load` is overwritten. Precondition: not a membrane.

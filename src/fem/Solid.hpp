@@ -97,9 +97,10 @@ struct SolidLoad {
   /// What the load acts on.
   enum class Kind {
     body, ///< force per volume (per area of a membrane) in the elements whose centre lies in a box or a group
-    traction, ///< force per area on a surface
-    pressure, ///< force per area against a surface's outward normal; value[0]
-    point,    ///< force at the node that lies at a point, or at each node of a surface or set of nodes
+    traction,    ///< force per area on a surface
+    pressure,    ///< force per area against a surface's outward normal; value[0]
+    point,       ///< force at the node that lies at a point, or at each node of a surface or set of nodes
+    distributed, ///< force `value` and moment on a surface, as a traction that is linear in place
     rotation, ///< force per volume away from an axis, in the elements of a group: value[0] times the distance
     temperature ///< change by value[0] at each node of a surface or set of nodes, or of the whole body
   };
@@ -107,12 +108,14 @@ struct SolidLoad {
   Kind kind = Kind::body;
   mesh::Box box;
   std::string where;      ///< group (body, rotation; may be empty: the box counts), surface or set of nodes
-  Vector3 point{0, 0, 0}; ///< where the node lies, or on the axis of rotation
+  Vector3 point{0, 0, 0}; ///< where the node lies, or a distributed force acts, or on the axis of rotation
   Vector3 value{0, 0, 0};
   /// Kind body with a box: elements carry the load as a whole or not at all. If false, on structured meshes
   /// exactly the part of the body that lies in the box does.
   bool wholeElements = true;
-  Vector3 axis{0, 0, 1}; ///< of rotation, of any length but 0
+  Vector3 axis{0, 0, 1};   ///< of rotation, of any length but 0
+  Vector3 moment{0, 0, 0}; ///< kind distributed: about the point; in the plane along z
+  bool atCentre = true;    ///< kind distributed: the point is the surface's centre
 };
 
 /// All that assembly asks of a body beside its mesh.

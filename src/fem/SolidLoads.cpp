@@ -1,6 +1,7 @@
 #include "epafi/fem/SolidLoads.hpp"
 
 #include "epafi/base/Text.hpp"
+#include "epafi/fem/DistributedTraction.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/HookesLaw.hpp"
 #include "epafi/mesh/MeshPart.hpp"
@@ -117,11 +118,19 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions, 
   const int components = body.components();
   std::vector<Point> points;
   Eigen::VectorXd values;
+  const auto materialAt = [&](std::size_t f) -> const Material& {
+    return materialIn(body.solid, regions.of(body, surface.elements[f]));
+  };
+  std::optional<DistributedTraction> distributed;
+  if (load.kind == SolidLoad::Kind::distributed)
+    distributed.emplace(body, surface, load, materialAt);
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const std::span<const GlobalOrdinal> nodes = surface.facet(f);
     body.mesh.pointsAt(nodes, points);
-    const Material& material = materialIn(body.solid, regions.of(body, surface.elements[f]));
-    if (load.kind == SolidLoad::Kind::pressure)
+    const Material& material = materialAt(f);
+    if (distributed)
+      distributed->of(surface.typeOf(f), points, material, values);
+    else if (load.kind == SolidLoad::Kind::pressure)
       pressureLoad(surface.typeOf(f), points, physics, material, load.value[0], values,
                    integrationOf(body.solid));
     else

@@ -3,6 +3,7 @@
 #include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/mesh/MeshChecks.hpp"
+#include "epafi/mesh/SmoothPieces.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -123,9 +124,45 @@ std::vector<std::string> UnstructuredMesh::surfaceNames() const {
 }
 
 Surface UnstructuredMesh::surface(const std::string& name) const {
-  if (name.empty())
-    return elementsAsSurface();
-  const std::vector<FacetPlace>& facets = facets_[placeOf(name, arrays_.surfaces)];
+  return name.empty() ? elementsAsSurface() : surfaceOf(facets_[placeOf(name, arrays_.surfaces)]);
+}
+
+Surface UnstructuredMesh::boundary() const {
+  return surfaceOf(boundaryFacets());
+}
+
+/// Ascending.
+std::vector<UnstructuredMesh::FacetPlace> UnstructuredMesh::boundaryFacets() const {
+  std::vector<FacetPlace> facets;
+  for (LocalOrdinal e = 0; e < arrays_.numElements(); ++e) {
+    const auto own = nodesOf(arrays_.cellType, arrays_.cells, index(e));
+    const std::size_t numFacets = facetsOf(cellOf(arrays_.cellType, own.size())).size();
+    for (std::size_t f = 0; f < numFacets; ++f)
+      if (topology_.across(index(e), f) < 0)
+        facets.push_back({e, static_cast<std::uint8_t>(f)});
+  }
+  return facets;
+}
+
+void UnstructuredMesh::namePiece(const std::string& words) {
+  const std::vector<std::string> names = surfaceNames();
+  if (std::find(names.begin(), names.end(), words) != names.end())
+    return;
+  const auto pointAt = [&](GlobalOrdinal node) { return point(node); };
+  const std::vector<FacetPlace> facets = boundaryFacets();
+  const Surface all = surfaceOf(facets);
+  const std::size_t nearest = nearestFacet(all, pointAt, placeIn(words).value());
+  for (const std::vector<std::size_t>& piece : smoothPieces(all, pointAt)) {
+    if (!std::binary_search(piece.begin(), piece.end(), nearest))
+      continue;
+    arrays_.surfaces.push_back({words, {}});
+    facets_.emplace_back();
+    for (const std::size_t facet : piece)
+      facets_.back().push_back(facets[facet]);
+  }
+}
+
+Surface UnstructuredMesh::surfaceOf(const std::vector<FacetPlace>& facets) const {
   Surface surface;
   surface.facetType = facetTypeOf(arrays_.cellType);
   for (const FacetPlace& facet : facets) {

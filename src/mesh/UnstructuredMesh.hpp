@@ -35,6 +35,11 @@ public:
   [[nodiscard]] std::vector<std::string> surfaceNames() const override;
   /// Facets by ascending element.
   [[nodiscard]] Surface surface(const std::string& name) const override;
+  /// All facets of the boundary, likewise.
+  [[nodiscard]] Surface boundary() const;
+  /// Names the smooth piece of the boundary (SmoothPieces.hpp) that is nearest to the place in these words,
+  /// unless a surface has the name. Precondition: they name a place.
+  void namePiece(const std::string& words);
   [[nodiscard]] std::vector<std::string> groupNames() const override;
   [[nodiscard]] std::vector<GlobalOrdinal> group(const std::string& name) const override;
   [[nodiscard]] std::vector<std::string> nodeSetNames() const override;
@@ -59,6 +64,8 @@ private:
   };
 
   void findFacets(const NamedFacets& surface);
+  [[nodiscard]] std::vector<FacetPlace> boundaryFacets() const;
+  [[nodiscard]] Surface surfaceOf(const std::vector<FacetPlace>& facets) const;
   [[nodiscard]] FacetPlace findFacet(const std::string& surface, std::span<const LocalOrdinal> nodes) const;
 
   MeshArrays arrays_; ///< without the surfaces' nodes

@@ -78,6 +78,13 @@ mesh::UnstructuredMesh GmshFile::body(const std::string& group, int order, mesh:
   return mesh::UnstructuredMesh(completed(std::move(arrays), false, inner));
 }
 
+mesh::UnstructuredMesh GmshFile::body(const MeshSource& source, int order, mesh::InnerNodes inner) const {
+  mesh::UnstructuredMesh mesh = body(source.group, order, inner);
+  for (const std::string& words : source.pieces)
+    mesh.namePiece(words);
+  return mesh;
+}
+
 void GmshFile::visitFacets(
     const std::function<void(const std::string&, std::span<const GlobalOrdinal>)>& visit) const {
   std::vector<GlobalOrdinal> tags;

@@ -14,6 +14,7 @@
 
 #include "epafi/mesh/MeshOrder.hpp"
 #include "epafi/mesh/UnstructuredMesh.hpp"
+#include "epafi/meshing/MeshSource.hpp"
 #include "epafi/meshing/MshReader.hpp"
 
 #include <functional>
@@ -43,6 +44,9 @@ public:
   /// \param order  of the mesh, 1 or 2, whatever the file has (MeshOrder.hpp); 0: as the file has it.
   /// \param inner  whether elements of 8 and 20 nodes become those of 9 and 27
   [[nodiscard]] mesh::UnstructuredMesh body(const std::string& group, int order = 0,
+                                            mesh::InnerNodes inner = mesh::InnerNodes::added) const;
+  /// That of a scene's body, whose file this is, with the pieces that it names.
+  [[nodiscard]] mesh::UnstructuredMesh body(const MeshSource& source, int order,
                                             mesh::InnerNodes inner = mesh::InnerNodes::added) const;
 
   /// Whether there is anything that body() would make a mesh of.

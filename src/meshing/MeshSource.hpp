@@ -30,6 +30,8 @@ struct MeshSource {
   int order = 1;                        ///< of the elements, 1 or 2; 0: as the mesh file has it
   mesh::InnerNodes innerNodes = mesh::InnerNodes::added; ///< of elements of order 2 from a file
   std::string group; ///< the physical group in it that is this body; empty: all its elements
+  /// Words for surfaces that the body is to have beside those of the file (mesh/SmoothPieces.hpp).
+  std::vector<std::string> pieces{};
 };
 
 /// Whether the name of a mesh file stands for several, which hold a mesh by parts: "press_*.msh".

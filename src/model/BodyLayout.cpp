@@ -116,7 +116,7 @@ std::unique_ptr<const mesh::Mesh> makeMesh(const scene::Body& body, const MeshFi
   const meshing::MeshSource& source = body.mesh;
   if (!source.file.empty())
     return std::make_unique<const mesh::UnstructuredMesh>(
-        files.at(keyOf(source)).body(source.group, source.order, source.innerNodes));
+        files.at(keyOf(source)).body(source, source.order, source.innerNodes));
   return structuredMesh(source);
 }
 
@@ -173,19 +173,23 @@ void requireSameComponents(const scene::Scene& scene) {
 
 } // namespace
 
-std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm, Meshes meshes) {
+std::vector<std::unique_ptr<const mesh::Mesh>> meshBodies(const scene::Scene& scene, const Comm& comm) {
   std::vector<std::unique_ptr<const mesh::Mesh>> made;
-  collectively(comm, [&] { requireSameComponents(scene); });
-  const bool areSplit = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                    [](const scene::Body& body) { return meshing::isSplit(body.mesh.file); });
-  if (meshes == Meshes::pieces && (areSplit || comm.getSize() > 1))
-    return layoutInPieces(scene, comm);
   const MeshFiles files = readMeshFiles(scene, comm);
   collectively(comm, [&] {
     for (const scene::Body& body : scene.bodies)
       made.push_back(makeMesh(body, files));
   });
-  return cutBodies(scene, std::move(made), comm);
+  return made;
+}
+
+std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm, Meshes meshes) {
+  collectively(comm, [&] { requireSameComponents(scene); });
+  const bool areSplit = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                    [](const scene::Body& body) { return meshing::isSplit(body.mesh.file); });
+  if (meshes == Meshes::pieces && (areSplit || comm.getSize() > 1))
+    return layoutInPieces(scene, comm);
+  return cutBodies(scene, meshBodies(scene, comm), comm);
 }
 
 std::unique_ptr<const mesh::Mesh> structuredMesh(const meshing::MeshSource& source) {

@@ -36,6 +36,10 @@ enum class Meshes {
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm,
                                      Meshes meshes = Meshes::whole);
 
+/// Meshes the bodies whole, and cuts none. Collective. \throws InputError, the same on all ranks, if a body
+/// cannot be meshed as the scene says. Precondition: no mesh is in several files.
+std::vector<std::unique_ptr<const mesh::Mesh>> meshBodies(const scene::Scene& scene, const Comm& comm);
+
 /// Cuts bodies that are meshed already, on all ranks alike. Collective. \throws InputError likewise.
 /// \param partitions  of each body, or nothing; those not null are taken as they are
 std::vector<BodyLayout> cutBodies(const scene::Scene& scene,

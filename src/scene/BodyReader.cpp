@@ -153,6 +153,23 @@ std::vector<fem::SolidSupport> readSupports(const ListReader& list, const Body& 
   return supports;
 }
 
+/// Where a distributed force acts, and its moment.
+void readMoment(const ListReader& list, const Body& body, fem::SolidLoad& load) {
+  if (isOfRevolution(body))
+    list.refuseGiven({"Moment", "Point"}, "a solid of revolution is loaded along its axis alone");
+  load.atCentre = !list.hasEntries("Point");
+  if (!load.atCentre)
+    load.point = list.vector("Point", dimensionOf(body));
+  if (!list.hasEntries("Moment"))
+    return;
+  if (dimensionOf(body) == 3)
+    load.moment = list.vector("Moment", 3);
+  else if (list.length("Moment") == 1)
+    load.moment[2] = list.reals("Moment").front();
+  else
+    list.refuseValue("Moment", "of a plane body it is one number, {m}, counter-clockwise");
+}
+
 /// Where a load acts; the parameters of the other kinds are refused.
 void readPlace(const ListReader& list, const Body& body, fem::SolidLoad& load) {
   const std::string reason = "a load of the kind \"" + list.word("Kind") + "\" has no use for it";
@@ -163,8 +180,10 @@ void readPlace(const ListReader& list, const Body& body, fem::SolidLoad& load) {
     list.refuseGiven({"Group"}, reason);
   if (load.kind == Kind::body || load.kind == Kind::rotation)
     list.refuseGiven({"Surface"}, reason);
-  if (load.kind != Kind::point && load.kind != Kind::rotation)
+  if (load.kind != Kind::point && load.kind != Kind::rotation && load.kind != Kind::distributed)
     list.refuseGiven({"Point"}, reason);
+  if (load.kind != Kind::distributed)
+    list.refuseGiven({"Moment"}, reason);
   if (load.kind == Kind::rotation && isOfRevolution(body)) {
     list.refuseGiven({"Point"}, "a solid of revolution turns about its axis, x = 0");
     load.axis = {0, 1, 0};
@@ -197,17 +216,20 @@ void readPlace(const ListReader& list, const Body& body, fem::SolidLoad& load) {
     if (load.kind != Kind::temperature)
       list.require("Surface");
     load.where = list.word("Surface");
+    if (load.kind == Kind::distributed)
+      readMoment(list, body, load);
   }
 }
 
 fem::SolidLoad::Kind kindOf(const std::string& word) {
   using Kind = fem::SolidLoad::Kind;
-  return word == "body"       ? Kind::body
-         : word == "traction" ? Kind::traction
-         : word == "pressure" ? Kind::pressure
-         : word == "rotation" ? Kind::rotation
-         : word == "point"    ? Kind::point
-                              : Kind::temperature;
+  return word == "body"          ? Kind::body
+         : word == "traction"    ? Kind::traction
+         : word == "pressure"    ? Kind::pressure
+         : word == "rotation"    ? Kind::rotation
+         : word == "point"       ? Kind::point
+         : word == "distributed" ? Kind::distributed
+                                 : Kind::temperature;
 }
 
 std::vector<fem::SolidLoad> readLoads(const ListReader& list, const Body& body) {
@@ -225,6 +247,8 @@ std::vector<fem::SolidLoad> readLoads(const ListReader& list, const Body& body) 
       entry.refuseValue("Kind", "membranes do not turn");
     if (load.kind == fem::SolidLoad::Kind::temperature && !isElastic(body))
       entry.refuseValue("Kind", "membranes do not expand");
+    if (load.kind == fem::SolidLoad::Kind::distributed && !isElastic(body))
+      entry.refuseValue("Kind", "membranes carry no moments; give a traction");
     readPlace(entry, body, load);
     if (!isElastic(body) || load.kind == fem::SolidLoad::Kind::pressure ||
         load.kind == fem::SolidLoad::Kind::rotation || load.kind == fem::SolidLoad::Kind::temperature) {
@@ -235,6 +259,8 @@ std::vector<fem::SolidLoad> readLoads(const ListReader& list, const Body& body) 
       entry.refuseGiven({"Value"}, "a load of this kind has components, its \"Force\"");
       entry.require("Force");
       load.value = entry.vector("Force", dimensionOf(body));
+      if (load.kind == fem::SolidLoad::Kind::distributed && isOfRevolution(body) && load.value[0] != 0)
+        entry.refuseValue("Force", "a solid of revolution is loaded along its axis alone, {0, F}");
     }
     loads.push_back(load);
   }

@@ -169,12 +169,13 @@ void describeLoads(ParameterList& body) {
       load, "Kind", "body",
       "body: force per volume (per area of a membrane) in the elements of a box or group; traction: force "
       "per area on a surface (per length on a membrane's); pressure: force per area against a surface's "
-      "outward normal; point: force at a node, or at each of a group; rotation: force per volume away from "
+      "outward normal; distributed: a force and a moment on a surface, spread over it linearly in place; "
+      "point: force at a node, or at each of a group; rotation: force per volume away from "
       "an "
       "axis, Value times the distance, in the elements of a group: ρω² of a body that turns; temperature: "
       "its change, by which the body expands, "
       "at each node of a group or of the whole body.",
-      {"body", "traction", "pressure", "point", "rotation", "temperature"});
+      {"body", "traction", "pressure", "distributed", "point", "rotation", "temperature"});
   addArray(load, "Box", Array<double>(),
            "Kind body: extent {x0, x1, y0, y1}, in space {x0, x1, y0, y1, z0, z1}, of what carries the load: "
            "that part of a "
@@ -182,24 +183,29 @@ void describeLoads(ParameterList& body) {
            box);
   load.set("Group", "", "Kinds body and rotation: physical group of the mesh file that carries the load.");
   load.set("Surface", "",
-           "Kinds traction and pressure, required: the loaded surface. Kind point: a surface, or a group of "
+           "Kinds traction, pressure and distributed, required: the loaded surface. Kind point: a surface, "
+           "or a group of "
            "points "
            "or curves, at each of whose nodes the force is. Kind temperature: likewise the nodes that become "
            "warmer; without it all.");
   addArray(
       load, "Point", Array<double>(),
       "Kind point, unless there is a Surface: where the node lies, {x, y} or {x, y, z}. Kind rotation: a "
-      "point of the axis, unless it is the origin; axisymmetric bodies turn about x = 0.",
+      "point of the axis, unless it is the origin; axisymmetric bodies turn about x = 0. Kind distributed: "
+      "where the force acts, perhaps far from the surface; without it at the surface's centre.",
       "");
   addArray(load, "Axis", Array<double>(), "Kind rotation in space, required: direction of the axis.", "");
   addReal(
       load, "Value", 0.0,
       "Membranes, required: force, positive upwards. Kind pressure, required: the pressure. Kind rotation, "
       "required: force per volume and distance. Kind temperature, required: the change in degrees.");
-  addArray(load, "Force", Array<double>(),
-           "Elastic bodies, required but for pressure, rotation and temperature: components {x, y} or {x, y, "
-           "z} of the force. Kind point of axisymmetric bodies: that of the whole circumference.",
-           "");
+  addArray(
+      load, "Force", Array<double>(),
+      "Elastic bodies, required but for pressure, rotation and temperature: components {x, y} or {x, y, "
+      "z} of the force. Kind point and distributed of axisymmetric bodies: that of the whole circumference.",
+      "");
+  addArray(load, "Moment", Array<double>(),
+           "Kind distributed: {x, y, z}, in the plane {m}, beside the force at its Point.", "");
 }
 
 void describeBody(ParameterList& bodies) {

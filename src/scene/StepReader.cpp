@@ -219,9 +219,12 @@ Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
     for (const auto& [place, state] : steps[k].states)
       states[place] = state;
   }
-  for (const auto& [place, factor] : loads)
-    for (double& component : scene.bodies[place.first].loads[place.second].value)
-      component *= factor;
+  for (const auto& [place, factor] : loads) {
+    fem::SolidLoad& load = scene.bodies[place.first].loads[place.second];
+    for (Vector3* const vector : {&load.value, &load.moment})
+      for (double& component : *vector)
+        component *= factor;
+  }
   for (const auto& [place, factor] : supports) {
     fem::SolidSupport& support = scene.bodies[place.first].supports[place.second];
     for (std::optional<double>& component : support.value)

@@ -3,12 +3,14 @@
 #include "epafi/accuracy/BodyElements.hpp"
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/fem/DistributedTraction.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -20,7 +22,8 @@ using NodesOfElements = std::map<GlobalOrdinal, std::set<GlobalOrdinal>>;
 using LoadKind = fem::SolidLoad::Kind;
 
 bool isOnSurface(const fem::SolidLoad& load) {
-  return load.kind == LoadKind::traction || load.kind == LoadKind::pressure;
+  return load.kind == LoadKind::traction || load.kind == LoadKind::pressure ||
+         load.kind == LoadKind::distributed;
 }
 
 /// The body with the loads that elements have inside.
@@ -41,6 +44,10 @@ loadsBeside(const scene::Body& body, const mesh::Mesh& mesh, const NodesOfElemen
     if (!isOnSurface(load))
       continue;
     const mesh::Surface surface = mesh.surface(load.where);
+    std::optional<fem::DistributedTraction> distributed;
+    if (load.kind == LoadKind::distributed)
+      distributed.emplace(fem::SolidBody(body, mesh), surface, load,
+                          [&](std::size_t) -> const fem::Material& { return body.material; });
     for (std::size_t f = 0; f < surface.numFacets(); ++f) {
       const auto found = wanted.find(surface.elements[f]);
       const std::span<const GlobalOrdinal> nodes = surface.facet(f);
@@ -50,7 +57,9 @@ loadsBeside(const scene::Body& body, const mesh::Mesh& mesh, const NodesOfElemen
         continue;
       mesh.pointsAt(nodes, points);
       const auto integration = fem::integrationOf(body);
-      if (load.kind == LoadKind::pressure)
+      if (distributed)
+        distributed->of(surface.typeOf(f), points, body.material, values);
+      else if (load.kind == LoadKind::pressure)
         fem::pressureLoad(surface.typeOf(f), points, body.physics, body.material, load.value[0], values,
                           integration);
       else

@@ -7,6 +7,8 @@
 
 #include <Teuchos_Array.hpp>
 
+#include <algorithm>
+
 namespace {
 
 using namespace epafi;
@@ -61,6 +63,55 @@ TEST(DeckModelTest, ABodyHasElementsOfSeveralShapes) {
   const std::string text =
       deck::mshText(deck::parseDeck(cubes(joined, prism + oneStep), "a.inp"), model.groups);
   EXPECT_NE(text.find("\n3 2 30 3 6 31 7\n"), std::string::npos) << text;
+}
+
+const std::string top = "*NODE\n99,.5,.5,7.\n*SURFACE,NAME=TOP\n2,S2\n";
+const std::string coupling =
+    top + "*COUPLING,CONSTRAINT NAME=C,REF NODE=99,SURFACE=TOP\n*DISTRIBUTING\n1,6\n";
+std::string stepWith(const std::string& cards) {
+  return "*STEP\n*STATIC\n" + cards + "*END STEP\n";
+}
+
+TEST(DeckModelTest, AForceAndAMomentOnANodeAreSpreadOverItsSurface) {
+  deck::DeckModel model = modelOf(cubes(joined, coupling + stepWith("*CLOAD\n99,1,3.\n99,3,-2.\n99,5,4.\n")));
+  const ParameterList& load = bodyOf(model, 1).sublist("Loads").sublist("step 1 load 1");
+  EXPECT_EQ(load.get<std::string>("Kind"), "distributed");
+  EXPECT_EQ(load.get<std::string>("Surface"), "TOP");
+  EXPECT_EQ(load.get<Teuchos::Array<double>>("Force"), Teuchos::Array<double>(std::vector<double>{3, 0, -2}));
+  EXPECT_EQ(load.get<Teuchos::Array<double>>("Moment"), Teuchos::Array<double>(std::vector<double>{0, 4, 0}));
+  EXPECT_EQ(load.get<Teuchos::Array<double>>("Point"),
+            Teuchos::Array<double>(std::vector<double>{.5, .5, 7}));
+  EXPECT_EQ(model.groups.surfaces.at("TOP").size(), 1u);
+}
+
+TEST(DeckModelTest, AForceOnANodeIsSharedByWeights) {
+  deck::DeckModel model = modelOf(cubes(
+      joined, top + "*ELEMENT,TYPE=DCOUP3D,ELSET=E\n9,99\n*DISTRIBUTING COUPLING,ELSET=E\n25,3.\n26,1.\n" +
+                  stepWith("*CLOAD\n99,2,8.\n")));
+  const ParameterList& loads = bodyOf(model, 1).sublist("Loads");
+  std::vector<double> forces;
+  for (const char* const name : {"step 1 load 1", "step 1 load 2"})
+    forces.push_back(loads.sublist(name).get<Teuchos::Array<double>>("Force")[1]);
+  std::sort(forces.begin(), forces.end());
+  EXPECT_EQ(forces, (std::vector<double>{2, 6}));
+}
+
+TEST(DeckModelTest, NodesThatStandForOthersAreForForcesAlone) {
+  const auto refused = [](const std::string& model, const std::string& step) {
+    return refusalOf(cubes(joined, model + stepWith(step)));
+  };
+  const std::string weights =
+      top + "*ELEMENT,TYPE=DCOUP3D,ELSET=E\n9,99\n*DISTRIBUTING COUPLING,ELSET=E\n25,3.\n";
+  expectSays(refused(coupling, "*BOUNDARY\n99,1,3\n"), {"node 99", "stands for others"});
+  expectSays(refused(coupling, "*CLOAD\n25,4,1.\n"), {"component is 4", "no moments"});
+  expectSays(refused(weights, "*CLOAD\n99,4,1.\n"), {"forces alone", "*COUPLING and *DISTRIBUTING"});
+  expectSays(refused(coupling + "*COUPLING,REF NODE=99,SURFACE=TOP\n*DISTRIBUTING\n", ""),
+             {"node 99 stands for other nodes already"});
+  expectSays(refused(top + "*COUPLING,REF NODE=99,SURFACE=TOP\n", ""), {"*COUPLING", "behind it belongs"});
+  expectSays(refused(top + "*COUPLING,REF NODE=98,SURFACE=TOP\n*DISTRIBUTING\n", ""), {"98", "no node"});
+  expectSays(refused(top + "*COUPLING,REF NODE=99,SURFACE=TOB\n*DISTRIBUTING\n", ""), {"TOB"});
+  expectSays(refused(top + "*DISTRIBUTING\n1,3\n", ""), {"*DISTRIBUTING", "behind *COUPLING"});
+  expectSays(refused(top + "*COUPLING,REF NODE=99,SURFACE=TOP\n*KINEMATIC\n1,3\n", ""), {"*KINEMATIC"});
 }
 
 TEST(DeckModelTest, NodesThatBodiesShareAreJoinedByEquations) {

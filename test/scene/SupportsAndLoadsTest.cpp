@@ -81,6 +81,40 @@ TEST(SupportsAndLoadsTest, ReadsLoadsAtGroupsOfNodesAndOfBodiesThatTurn) {
   EXPECT_NE(refusal([&] { solidOf(list); }).find("\"Surface\", too"), std::string::npos);
 }
 
+TEST(SupportsAndLoadsTest, SurfacesThatArePlacesAreOfMeshFiles) {
+  ParameterList list;
+  ParameterList& body = bodyOf(list, "skin");
+  body.set("Mesh", "skin.msh");
+  body.sublist("Supports").sublist("rim").set("Surface", "at 1 0.5").set("Value", 0.0);
+  body.sublist("Loads").sublist("pull").set("Kind", "traction").set("Surface", "at 1 0.5").set("Value", 1.0);
+  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.pieces, std::vector<std::string>{"at 1 0.5"});
+  body.set("Mesh", "skin_*.msh");
+  expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"a.xml", "\"at 1 0.5\"", "is a place"});
+  ParameterList cube = cubeOnFloor();
+  bodyOf(cube, "cube").sublist("Supports").sublist("wall").set("Surface", "at 1 0.5 0").set("X", 0.0);
+  expectSays(refusal([&] { solidOf(cube); }), {"\"cube\"", "is a place"});
+}
+
+TEST(SupportsAndLoadsTest, ReadsForcesAndMomentsThatAreSpread) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& loads = bodyOf(list, "cube").sublist("Loads");
+  loads.sublist("even").set("Kind", "distributed").set("Surface", "top").set("Force", numbers({0, 2, 0}));
+  ParameterList& remote = loads.sublist("remote");
+  remote.set("Kind", "distributed").set("Surface", "top").set("Force", numbers({0, 0, 0}));
+  remote.set("Moment", numbers({1, 2, 3})).set("Point", numbers({0, 0, 9}));
+  const std::vector<fem::SolidLoad> read = solidOf(list).loads;
+  EXPECT_EQ(read.at(0).kind, fem::SolidLoad::Kind::distributed);
+  EXPECT_TRUE(read[0].atCentre);
+  EXPECT_EQ(read[0].moment, (Vector3{0, 0, 0}));
+  EXPECT_FALSE(read.at(1).atCentre);
+  EXPECT_EQ(read[1].point, (Vector3{0, 0, 9}));
+  EXPECT_EQ(read[1].moment, (Vector3{1, 2, 3}));
+  remote.set("Moment", numbers({1}));
+  expectSays(refusal([&] { solidOf(list); }), {"Loads/remote", "\"Moment\""});
+  remote.set("Kind", "traction").set("Moment", numbers({1, 2, 3}));
+  expectSays(refusal([&] { solidOf(list); }), {"Loads/remote", "no use for it"});
+}
+
 TEST(SupportsAndLoadsTest, ReadsAxesOfSupports) {
   ParameterList list = cubeOnFloor();
   ParameterList& support = bodyOf(list, "cube").sublist("Supports").sublist("wall");

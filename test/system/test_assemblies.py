@@ -149,6 +149,26 @@ class Assemblies(unittest.TestCase):
         self.assertEqual(solved.returncode, SOLVED, solved.stdout + solved.stderr)
         self.assertIn("force 2000", solved.stdout)
 
+    def test_a_picture_shows_the_faces_by_their_numbers(self):
+        picture = self.place / "bracket.svg"
+        done = run(step("bracket"), "--show", picture)
+        self.assertEqual(done.returncode, SOLVED, done.stderr)
+        root = xml.etree.ElementTree.parse(picture).getroot()
+        space = "{http://www.w3.org/2000/svg}"
+        titles = {title.text for title in root.iter(f"{space}title")}
+        numbers = [text.text for text in root.iter(f"{space}text") if text.get("class") is None]
+        names = [text.text for text in root.iter(f"{space}text") if text.get("class") == "body"]
+        self.assertIn("bracket/face 3, face 3", titles)
+        self.assertEqual(len(names), 6)
+        self.assertGreaterEqual(len(set(numbers)), 20)  # of 37; others are inside, or hidden by what they touch
+        self.assertTrue({f", face {number}" for number in numbers} <= {title[title.rindex(","):] for title in titles})
+        plain = self.place / "strap.svg"
+        done = run(SOURCE / "xml/bearing.xml", "--show", plain)
+        self.assertEqual(done.returncode, SOLVED, done.stderr)
+        self.assertIn("<title>", plain.read_text(encoding="utf-8"))
+        wrong = run(step("bracket"), "--show", self.place / "bracket.png")
+        self.assertEqual((wrong.returncode, wrong.stderr.count("\n")), (WRONG_INPUT, 1))
+
     def test_lists_name_faces_and_errors_are_sentences(self):
         listed = run(step("bracket"), "--list")
         self.assertEqual(listed.returncode, SOLVED, listed.stderr)
@@ -158,7 +178,7 @@ class Assemblies(unittest.TestCase):
         self.assertEqual(wrong.returncode, WRONG_INPUT)
         self.assertIn('no face "upper block/plane up"; there are plane -x (face 7, area 400', wrong.stderr)
         self.assertEqual(run(step("blocks")).returncode, WRONG_INPUT)  # no material
-        self.assertIn("--list", run(SOURCE / "xml/membrane.xml", "--list").stderr)
+        self.assertIn("is a membrane", run(SOURCE / "xml/coercive.xml", "--list").stderr)
 
 
 if __name__ == "__main__":

@@ -214,6 +214,65 @@ class WrittenDecksTest(unittest.TestCase):
         self.assertAlmostEqual(force[2], 10000, delta=1e-2)
         self.assertLess(max(abs(found[node][2]) for node in found), 0.006)
 
+    def test_forces_and_moments_on_a_node_are_spread_over_its_surface_and_balance(self):
+        mesh = Mesh()
+        mesh.box("beam", (0, 0, 0), (40, 10, 8), (8, 2, 2))
+        fixed, ends = mesh.on("beam", 0, 0)
+        _, end = mesh.on("beam", 0, 40)
+        node = len(mesh.nodes) + 1
+        sets = (f"*NODE\n{node}, 50, 8, 1\n*NSET,NSET=ConstraintFixed\n{lines(fixed)}*SURFACE, NAME=End, TYPE=ELEMENT\n"
+                f"{face_lines(end)}*SURFACE, NAME=Ground, TYPE=ELEMENT\n{face_lines(ends)}"
+                f"*COUPLING, CONSTRAINT NAME=c, REF NODE={node}, SURFACE=End\n*DISTRIBUTING\n1,6\n")
+        for loads in ({1: 500, 2: 100, 3: -50}, {4: 3000, 5: 2000, 6: -1000}):
+            cards = "".join(f"{node},{component},{value}\n" for component, value in loads.items())
+            text = freecad(mesh, sets, "", "*ELASTIC\n210000, 0.3",
+                           f"*STEP\n*STATIC\n*BOUNDARY\nConstraintFixed,1,3\n*CLOAD\n{cards}"
+                           "*SECTION PRINT, SURFACE=Ground, NAME=g\nSOF, SOM\n")
+            found, _ = self.solve(text, ranks=2)
+            printed = (self.folder / "epafi.dat").read_text(encoding="utf-8")
+            force, moment = (
+                [float(x) for x in printed[printed.index(words):].split("\n\n")[1].split()[:6]][first:first + 3]
+                for words, first in (("total surface force (fx,fy,fz)", 0), ("total surface force (fx,fy,fz)", 3)))
+            f, m = ([loads.get(first + c, 0) for c in range(3)] for first in (1, 4))
+            r = [50, 8, 1]
+            m = [m[c] + r[c - 2] * f[c - 1] - r[c - 1] * f[c - 2] for c in range(3)]
+            for value, expected in zip(force + moment, f + m):
+                self.assertAlmostEqual(value, -expected, delta=2e-6 * max(map(abs, f + m)))
+            self.compare(text, found, 1e-2)
+
+    def test_pairs_that_a_deck_leaves_out_are_found_between_its_bodies(self):
+        mesh = self.blocks(0.004)
+        _, top = mesh.on("upper", 2, 10.004)
+        text = freecad(mesh, self.sets(mesh, 0.004), "", "*ELASTIC\n210000, 0",
+                       f"*STEP\n*STATIC\n{self.HELD}*DLOAD\n{pressure_lines(top, 100.0)}")
+        deck, scene, report = (self.folder / name for name in ("model.inp", "model.xml", "report.xml"))
+        deck.write_text(text, encoding="utf-8")
+
+        def run(*arguments):
+            return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=240, check=False)
+
+        def pressed(done, name):
+            self.assertEqual(done.returncode, 0, done.stderr)
+            force = self.resultant(xml.etree.ElementTree.parse(report).getroot(), name)
+            self.assertAlmostEqual(abs(force[2]), 10000, delta=1e-3)
+
+        self.assertEqual(run(EPAFI, deck).returncode, 3)  # the upper block hangs in the air
+        done = run(*LAUNCH, 2, EPAFI, deck, "--set", "Contact/Automatic/Kind=contact", "--report", report)
+        self.assertIn("plane on plane, area 100, gap 0.004", done.stdout)
+        pressed(done, "body 1 - body 2")
+        # As XML to paste into what --export writes.
+        pairs = run(EPAFI, deck, "--print-pairs").stdout
+        self.assertIn('name="Second Surface" type="string" value="at ', pairs)
+        self.assertEqual(run(EPAFI, deck, "--export", scene).returncode, 0)
+        own = scene.read_text(encoding="utf-8")
+        scene.write_text(own[:own.rindex("</ParameterList>")] + pairs + "</ParameterList>", encoding="utf-8")
+        pressed(run(EPAFI, scene, "--report", report), "body 1 - body 2")
+        listed = run(EPAFI, deck, "--list", "--set", "Contact/Automatic/Distance=1e-3")
+        self.assertIn("1 pair of faces is 0.004 apart: a Distance of 0.0048 takes it in", listed.stdout)
+        self.assertIn("body 1/at ", listed.stdout)
+        wrong = run(EPAFI, deck, "--set", "Contact/Automatic/Distnace=1e-3")
+        self.assertEqual((wrong.returncode, wrong.stderr.count("\n")), (2, 1), wrong.stderr)
+
     def test_prepomax_hard_contact_with_adjust_has_no_gap(self):
         gap = 0.05
         mesh = self.blocks(gap)
