@@ -139,7 +139,8 @@ private:
   void pass(PreloadResult& preload) { (*this)(preload.name, preload.force, preload.shortening); }
   void pass(StepResult& step) {
     (*this)(step.name, step.multiplications, step.strainEnergy, step.loadWork, step.dissipation,
-            step.contacts, step.supports, step.preloads, step.reason, step.feedback, step.relativeError);
+            step.contacts, step.supports, step.preloads, step.reason, step.feedback, step.relativeError,
+            step.unsettled.negativeCurvatures, step.unsettled.fixedPointRounds);
     step.status = RunStatus::converged; // others are not done
   }
   void pass(FrictionFeedback& feedback) { (*this)(feedback.factor, feedback.multiplications); }

@@ -56,6 +56,13 @@ void enterFeedback(const std::optional<FrictionFeedback>& feedback, ParameterLis
         .set("Friction Feedback Multiplications", feedback->multiplications);
 }
 
+void enterUnsettled(const UnsettledFriction& unsettled, ParameterList& list) {
+  if (unsettled.negativeCurvatures > 0)
+    list.set("Negative Curvatures", unsettled.negativeCurvatures);
+  if (unsettled.fixedPointRounds > 0)
+    list.set("Fixed Point Rounds", unsettled.fixedPointRounds);
+}
+
 void enterAccuracy(const RunResult& result, ParameterList& list) {
   list.set("Relative Projected Gradient", result.relativeProjectedGradient)
       .set("Feasibility", result.feasibility)
@@ -67,6 +74,7 @@ void enterAccuracy(const RunResult& result, ParameterList& list) {
       .set("Strain Energy", result.energy + result.loadWork)
       .set("Load Work", result.loadWork);
   enterFeedback(result.feedback, list);
+  enterUnsettled(result.unsettled, list);
   if (std::isfinite(result.algebraicError))
     list.set("Algebraic Error", result.algebraicError);
   if (result.error)
@@ -189,6 +197,7 @@ void enterStep(const StepResult& step, ParameterList& list) {
       .set("Converged", step.status == RunStatus::converged)
       .set("Reason", step.reason);
   enterFeedback(step.feedback, list);
+  enterUnsettled(step.unsettled, list);
   for (const ContactResult& contact : step.contacts)
     enterContact(contact, list.sublist("Contact").sublist(contact.name));
   enterSupports(step.supports, list);

@@ -183,23 +183,14 @@ void enterSolution(SceneRun& run) {
   result.feedback.reset();
   if (run.decomposition->data.hasCoulombFriction() && std::isfinite(solution.frictionFeedback))
     result.feedback = {solution.frictionFeedback, solution.feedbackMultiplications};
+  result.unsettled = {result.solve.counts.negativeCurvatures,
+                      result.solve.plan.algorithm == fetidp::Algorithm::fixedPoint
+                          ? 0
+                          : result.solve.counts.fixedPointRounds};
   result.reason = result.solve.statusReason;
   result.status = result.solve.status == qp::Status::converged     ? RunStatus::converged
                   : result.solve.status == qp::Status::interrupted ? RunStatus::interrupted
                                                                    : RunStatus::notConverged;
-}
-
-/// A sentence where friction is so strong that there may be more than one solution; empty if it is not.
-std::string strongFeedback(const std::optional<FrictionFeedback>& feedback) {
-  constexpr double strong = 0.5;
-  if (!feedback || !(feedback->factor >= strong))
-    return {};
-  const std::string factor =
-      "the bounds of friction feed back on themselves by a factor of " + text(feedback->factor, 2);
-  return factor + (feedback->factor < 1
-                       ? ": the nearer it is to 1, the less is known of whether there is one solution alone"
-                       : ": from 1 on there may be other solutions than this one, and nothing bounds the "
-                         "iteration's error");
 }
 
 /// A sentence where what is asked for is less than the rounding of displacements; empty if it is not.
@@ -238,10 +229,9 @@ void evaluateRun(SceneRun& run) {
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
   result.holds = holdResults(solved);
   for (const std::string& doubt :
-       {largeDeformations(result, Deformation::doubtful), strongFeedback(result.feedback), unseen,
-        roundedGradient(run), loadedHolds(result)})
-    if (!doubt.empty())
-      result.doubts += (result.doubts.empty() ? "" : ". ") + doubt;
+       {largeDeformations(result, Deformation::doubtful), frictionDoubts(result.feedback, result.unsettled),
+        unseen, roundedGradient(run), loadedHolds(result)})
+    addDoubt(doubt, result);
 }
 
 /// Where the iteration starts: a checkpoint's λ, or the solution on a coarser mesh. Makes the solver and sets
