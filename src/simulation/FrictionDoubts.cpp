@@ -20,10 +20,10 @@ std::string frictionDoubts(const std::optional<FrictionFeedback>& feedback,
              : ": from 1 on there may be other solutions than this one, and nothing bounds the iteration's "
                "error"));
   if (unsettled.fixedPointRounds > 0)
-    add("what sticks and what slips did not settle with bounds of friction that follow the normal forces, and "
+    add("what sticks and what slips did not settle with bounds of friction that follow the normal forces, "
+        "and "
         "was found with given bounds, in " +
-        std::to_string(unsettled.fixedPointRounds) +
-        " rounds: there may be other solutions than this one");
+        std::to_string(unsettled.fixedPointRounds) + " rounds: there may be other solutions than this one");
   else if (unsettled.negativeCurvatures > 0)
     add("on its way the iteration met faces on which friction is stronger than what deforms (p'Fp < 0): the "
         "coefficient is beyond those for which one solution alone is known");

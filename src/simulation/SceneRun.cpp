@@ -243,6 +243,8 @@ RCP<const Vector> prepareSolve(SceneRun& run, const Teuchos::ParameterList& solv
   if (options.companion != nullptr)
     start = options.companion->begin(problem);
   fetidp::RunFacts facts = options.facts;
+  facts.isUniform =
+      std::ranges::all_of(run.scene.bodies, [](const scene::Body& body) { return isUniform(body); });
   facts.hasStart = !start.is_null() || options.coarser != nullptr;
   std::optional<SceneRun> coarse;
   if (ContactSolver(solverParameters, facts).planFor(problem).beginsOnCoarserMesh) {
