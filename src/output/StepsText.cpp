@@ -139,8 +139,7 @@ private:
   void pass(PreloadResult& preload) { (*this)(preload.name, preload.force, preload.shortening); }
   void pass(StepResult& step) {
     (*this)(step.name, step.multiplications, step.strainEnergy, step.loadWork, step.dissipation,
-            step.contacts, step.supports, step.preloads, step.reason, step.feedback, step.relativeError,
-            step.unsettled.negativeCurvatures, step.unsettled.fixedPointRounds);
+            step.contacts, step.supports, step.preloads, step.reason, step.feedback, step.relativeError);
     step.status = RunStatus::converged; // others are not done
   }
   void pass(FrictionFeedback& feedback) { (*this)(feedback.factor, feedback.multiplications); }

@@ -48,19 +48,16 @@ void enterSolve(const SolveFacts& solve, ParameterList& list) {
       .set("Hessian Multiplications", solve.counts.hessianMultiplications)
       .set("Norm Estimate Multiplications", solve.normMultiplications)
       .set("Preconditioner Applications", solve.counts.preconditionerApplications);
+  if (solve.counts.negativeCurvatures > 0)
+    list.sublist("Iterations").set("Negative Curvatures", solve.counts.negativeCurvatures);
+  if (solve.counts.fixedPointRounds > 0)
+    list.sublist("Iterations").set("Fixed Point Rounds", solve.counts.fixedPointRounds);
 }
 
 void enterFeedback(const std::optional<FrictionFeedback>& feedback, ParameterList& list) {
   if (feedback)
     list.set("Friction Feedback", feedback->factor)
         .set("Friction Feedback Multiplications", feedback->multiplications);
-}
-
-void enterUnsettled(const UnsettledFriction& unsettled, ParameterList& list) {
-  if (unsettled.negativeCurvatures > 0)
-    list.set("Negative Curvatures", unsettled.negativeCurvatures);
-  if (unsettled.fixedPointRounds > 0)
-    list.set("Fixed Point Rounds", unsettled.fixedPointRounds);
 }
 
 void enterAccuracy(const RunResult& result, ParameterList& list) {
@@ -74,7 +71,6 @@ void enterAccuracy(const RunResult& result, ParameterList& list) {
       .set("Strain Energy", result.energy + result.loadWork)
       .set("Load Work", result.loadWork);
   enterFeedback(result.feedback, list);
-  enterUnsettled(result.unsettled, list);
   if (std::isfinite(result.algebraicError))
     list.set("Algebraic Error", result.algebraicError);
   if (result.error)
@@ -197,7 +193,6 @@ void enterStep(const StepResult& step, ParameterList& list) {
       .set("Converged", step.status == RunStatus::converged)
       .set("Reason", step.reason);
   enterFeedback(step.feedback, list);
-  enterUnsettled(step.unsettled, list);
   for (const ContactResult& contact : step.contacts)
     enterContact(contact, list.sublist("Contact").sublist(contact.name));
   enterSupports(step.supports, list);

@@ -74,12 +74,6 @@ struct FrictionFeedback {
   int multiplications = 0;
 };
 
-/// Steps of an iteration with Coulomb's friction that are a sign of its solution not being the only one.
-struct UnsettledFriction {
-  int negativeCurvatures = 0; ///< qp::StepCounts
-  int fixedPointRounds = 0;   ///< where active sets were to find its bounds; likewise
-};
-
 /// What a load step has come to.
 struct StepResult {
   std::string name;
@@ -94,7 +88,6 @@ struct StepResult {
   std::optional<FrictionFeedback> feedback = std::nullopt; ///< with Coulomb's friction
   /// ErrorResult::relative(); NaN: not estimated.
   double relativeError = std::numeric_limits<double>::quiet_NaN();
-  UnsettledFriction unsettled = {};
 };
 
 /// All of it.
@@ -108,7 +101,6 @@ struct RunResult {
   double contactForce = 0;
   double loadWork = 0;                        ///< fᵀu of the loads
   std::optional<FrictionFeedback> feedback;   ///< with Coulomb's friction
-  UnsettledFriction unsettled;                ///< likewise
   std::optional<ErrorResult> error;           ///< if asked for
   std::optional<accuracy::EnergyBound> bound; ///< if asked for
   std::string doubts;                         ///< what an estimate does not see; perhaps empty
@@ -129,12 +121,8 @@ struct RunResult {
   std::string reason; ///< one sentence
 };
 
-/// Adds a sentence to the doubts, unless it is empty.
-void addDoubt(const std::string& doubt, RunResult& result);
-
 /// Sentences where friction is so strong that there may be more than one solution; empty if it is not.
-std::string frictionDoubts(const std::optional<FrictionFeedback>& feedback,
-                           const UnsettledFriction& unsettled);
+std::string frictionDoubts(const RunResult& result);
 
 /// A sentence where holds take more than noise of the scene's forces; empty if they do not.
 std::string loadedHolds(const RunResult& result);

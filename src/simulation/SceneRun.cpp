@@ -183,10 +183,6 @@ void enterSolution(SceneRun& run) {
   result.feedback.reset();
   if (run.decomposition->data.hasCoulombFriction() && std::isfinite(solution.frictionFeedback))
     result.feedback = {solution.frictionFeedback, solution.feedbackMultiplications};
-  result.unsettled = {result.solve.counts.negativeCurvatures,
-                      result.solve.plan.algorithm == fetidp::Algorithm::fixedPoint
-                          ? 0
-                          : result.solve.counts.fixedPointRounds};
   result.reason = result.solve.statusReason;
   result.status = result.solve.status == qp::Status::converged     ? RunStatus::converged
                   : result.solve.status == qp::Status::interrupted ? RunStatus::interrupted
@@ -228,10 +224,10 @@ void evaluateRun(SceneRun& run) {
   requireAllContacts(result);
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
   result.holds = holdResults(solved);
-  for (const std::string& doubt :
-       {largeDeformations(result, Deformation::doubtful), frictionDoubts(result.feedback, result.unsettled),
-        unseen, roundedGradient(run), loadedHolds(result)})
-    addDoubt(doubt, result);
+  for (const std::string& doubt : {largeDeformations(result, Deformation::doubtful), frictionDoubts(result),
+                                   unseen, roundedGradient(run), loadedHolds(result)})
+    if (!doubt.empty())
+      result.doubts += (result.doubts.empty() ? "" : ". ") + doubt;
 }
 
 /// Where the iteration starts: a checkpoint's λ, or the solution on a coarser mesh. Makes the solver and sets

@@ -45,15 +45,7 @@ StepResult resultOf(const std::string& name, RunResult& result) {
           result.status,
           result.reason,
           result.feedback,
-          result.error ? result.error->relative() : std::numeric_limits<double>::quiet_NaN(),
-          result.unsettled};
-}
-
-/// What is said of friction in the first of the steps before of which there is something to say.
-void addEarlierDoubts(const std::vector<StepResult>& results, RunResult& result) {
-  for (std::size_t k = 0; k + 1 < results.size(); ++k)
-    if (const std::string doubts = frictionDoubts(results[k].feedback, results[k].unsettled); !doubts.empty())
-      return addDoubt(doubts + inStep(results[k].name), result);
+          result.error ? result.error->relative() : std::numeric_limits<double>::quiet_NaN()};
 }
 
 /// Does what a step needs; whether it has a solution is said with its name.
@@ -287,7 +279,6 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
       run = solveScene(next, solverParameters, comm, first);
     });
     done.results.push_back(resultOf(steps[k].name, run.result));
-    addEarlierDoubts(done.results, run.result);
     run.result.steps = done.results;
     if (run.result.status != RunStatus::converged)
       break;
