@@ -139,8 +139,8 @@ TEST(SolveTest, ASetThatMovesWithTheSolutionIsFollowed) {
   }
 }
 
-/// Of each pair of A = (1, −0.9; −0.9, 1), |x_1| ≤ 2 x_0 and b = (−1.6, 3) both 0 and (2, 4) are solutions; on
-/// the face of the second one 1 − 0.9 · 2 < 0.
+/// Of each pair of A = (1, −0.9; −0.9, 1), |x_1| ≤ 2 x_0 and b = (−1.6, 3) 0, (2, 4) and (5.8, 8.2) are solutions;
+/// on the face of the second one 1 − 0.9 · 2 < 0.
 TEST(SolveTest, CurvatureBelowZeroOnAFaceWithBoundsThatFollowIsCounted) {
   Wedges wedges;
   wedges.knowGrowth = true;
@@ -152,6 +152,7 @@ TEST(SolveTest, CurvatureBelowZeroOnAFaceWithBoundsThatFollowIsCounted) {
   wedges.program.linearTerm = test::makeVector(wedges.map, Wedges::ends(-1.6, 3));
   wedges.program.operatorNorm = 1.9;
   Vector x(*test::makeVector(wedges.map, Wedges::ends(2.5, 5)), Teuchos::Copy);
+  wedges.program.set = wedges.setAt(x);
 
   const auto report = qp::solve(wedges.program, Method::activeSets, {1e-10, 1.0}, {}, x);
 
