@@ -134,6 +134,11 @@ struct Solid {
 /// Whether its temperature changes anywhere.
 bool isHeated(const Solid& body);
 
+/// Whether it is of one material everywhere.
+inline bool isUniform(const Solid& body) {
+  return body.regions.empty() && body.stiffnessFactors.empty();
+}
+
 /// A membrane's load per area on exactly what lies in a box.
 SolidLoad loadInside(std::string name, const mesh::Box& box, double value);
 

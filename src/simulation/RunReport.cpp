@@ -48,6 +48,10 @@ void enterSolve(const SolveFacts& solve, ParameterList& list) {
       .set("Hessian Multiplications", solve.counts.hessianMultiplications)
       .set("Norm Estimate Multiplications", solve.normMultiplications)
       .set("Preconditioner Applications", solve.counts.preconditionerApplications);
+  if (solve.counts.negativeCurvatures > 0)
+    list.sublist("Iterations").set("Negative Curvatures", solve.counts.negativeCurvatures);
+  if (solve.counts.fixedPointRounds > 0)
+    list.sublist("Iterations").set("Fixed Point Rounds", solve.counts.fixedPointRounds);
 }
 
 void enterFeedback(const std::optional<FrictionFeedback>& feedback, ParameterList& list) {

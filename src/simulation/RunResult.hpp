@@ -121,6 +121,9 @@ struct RunResult {
   std::string reason; ///< one sentence
 };
 
+/// Sentences where friction is so strong that there may be more than one solution; empty if it is not.
+std::string frictionDoubts(const RunResult& result);
+
 /// A sentence where holds take more than noise of the scene's forces; empty if they do not.
 std::string loadedHolds(const RunResult& result);
 

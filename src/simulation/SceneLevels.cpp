@@ -79,10 +79,8 @@ class LocalLevels final : public SceneLevels {
 public:
   LocalLevels(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
               const QuantityParameters& quantity, const RCP<const Comm>& comm, RunCompanion* companion)
-      : SceneLevels(solverParameters, quantity, comm, companion,
-                    std::all_of(scene.bodies.begin(), scene.bodies.end(),
-                                [](const scene::Body& body) { return body.regions.empty(); })),
-        meshes_(scene, *comm), dimension_(dimensionOf(scene.bodies.front().physics)) {}
+      : SceneLevels(solverParameters, quantity, comm, companion), meshes_(scene, *comm),
+        dimension_(dimensionOf(scene.bodies.front().physics)) {}
 
   [[nodiscard]] int dimension() const override { return dimension_; }
   /// As on the gallery's scenes before meshes measure it.
@@ -146,22 +144,20 @@ private:
 } // namespace
 
 SceneLevels::SceneLevels(const Teuchos::ParameterList& solverParameters, QuantityParameters quantity,
-                         RCP<const Comm> comm, RunCompanion* companion, bool isUniform)
+                         RCP<const Comm> comm, RunCompanion* companion)
     : solverParameters_(solverParameters), quantity_(std::move(quantity)), comm_(std::move(comm)),
-      companion_(companion), isUniform_(isUniform), start_(Teuchos::Time::wallTime()),
-      bytesBefore_(resetPeakBytes()) {}
+      companion_(companion), start_(Teuchos::Time::wallTime()), bytesBefore_(resetPeakBytes()) {}
 
 MeshResult SceneLevels::solve(int order) {
   std::vector<model::BodyLayout> bodies;
   const scene::Scene scene = prepare(order, bodies);
   using fetidp::Purpose;
   const bool isOfNumber = quantity_.kind != QuantityParameters::Kind::none;
-  RunOptions options{
-      .estimatesError = true,
-      .bound = isBounded_,
-      .quantity = quantity_,
-      .facts = {.purpose = isOfNumber ? Purpose::quantity : Purpose::mesh, .isUniform = isUniform_},
-      .companion = companion_};
+  RunOptions options{.estimatesError = true,
+                     .bound = isBounded_,
+                     .quantity = quantity_,
+                     .facts = {.purpose = isOfNumber ? Purpose::quantity : Purpose::mesh},
+                     .companion = companion_};
   if (!bodies.empty())
     options.bodies = &bodies;
   if (hasRun_)

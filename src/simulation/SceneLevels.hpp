@@ -17,9 +17,8 @@ namespace epafi::simulation {
 class SceneLevels : public accuracy::RefinableProblem {
 public:
   /// \param solverParameters  the list Solver
-  /// \param isUniform         see fetidp::RunFacts
   SceneLevels(const Teuchos::ParameterList& solverParameters, QuantityParameters quantity,
-              RCP<const Comm> comm, RunCompanion* companion, bool isUniform = false);
+              RCP<const Comm> comm, RunCompanion* companion);
 
   accuracy::MeshResult solve(int order) final;
   void boundEnergies() { isBounded_ = true; }    ///< of each mesh, with a guarantee
@@ -43,7 +42,7 @@ private:
   RCP<const Comm> comm_;
   RunCompanion* companion_;
   SceneRun run_;
-  bool isUniform_, hasRun_ = false, isBounded_ = false;
+  bool hasRun_ = false, isBounded_ = false;
   double start_, bytesBefore_;
 };
 

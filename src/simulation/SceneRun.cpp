@@ -189,19 +189,6 @@ void enterSolution(SceneRun& run) {
                                                                    : RunStatus::notConverged;
 }
 
-/// A sentence where friction is so strong that there may be more than one solution; empty if it is not.
-std::string strongFeedback(const std::optional<FrictionFeedback>& feedback) {
-  constexpr double strong = 0.5;
-  if (!feedback || !(feedback->factor >= strong))
-    return {};
-  const std::string factor =
-      "the bounds of friction feed back on themselves by a factor of " + text(feedback->factor, 2);
-  return factor + (feedback->factor < 1
-                       ? ": the nearer it is to 1, the less is known of whether there is one solution alone"
-                       : ": from 1 on there may be other solutions than this one, and nothing bounds the "
-                         "iteration's error");
-}
-
 /// A sentence where what is asked for is less than the rounding of displacements; empty if it is not.
 std::string roundedGradient(const SceneRun& run) {
   const double found = run.solution.relativeProjectedGradient, asked = run.solver->plan().tolerance;
@@ -237,9 +224,8 @@ void evaluateRun(SceneRun& run) {
   requireAllContacts(result);
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
   result.holds = holdResults(solved);
-  for (const std::string& doubt :
-       {largeDeformations(result, Deformation::doubtful), strongFeedback(result.feedback), unseen,
-        roundedGradient(run), loadedHolds(result)})
+  for (const std::string& doubt : {largeDeformations(result, Deformation::doubtful), frictionDoubts(result),
+                                   unseen, roundedGradient(run), loadedHolds(result)})
     if (!doubt.empty())
       result.doubts += (result.doubts.empty() ? "" : ". ") + doubt;
 }
@@ -253,6 +239,8 @@ RCP<const Vector> prepareSolve(SceneRun& run, const Teuchos::ParameterList& solv
   if (options.companion != nullptr)
     start = options.companion->begin(problem);
   fetidp::RunFacts facts = options.facts;
+  facts.isUniform =
+      std::ranges::all_of(run.scene.bodies, [](const scene::Body& body) { return isUniform(body); });
   facts.hasStart = !start.is_null() || options.coarser != nullptr;
   std::optional<SceneRun> coarse;
   if (ContactSolver(solverParameters, facts).planFor(problem).beginsOnCoarserMesh) {

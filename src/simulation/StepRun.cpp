@@ -248,6 +248,7 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
                     const RunOptions& options, const std::function<void(SceneRun&)>& tell) {
   RunOptions first = options;
   first.facts.coarserFrom = fetidp::RunFacts().coarserFrom; // a coarser mesh would know one step alone
+  first.facts.solvesAgain = steps.size() > 1;
   const StepsDone* const earlier = options.companion != nullptr ? options.companion->stepsDone() : nullptr;
   StepsDone done = earlier != nullptr ? *earlier : StepsDone();
   Slip slip(done.slip);

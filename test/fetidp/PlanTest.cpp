@@ -206,6 +206,13 @@ TEST(PlanTest, JumpsAreLookedForWhereThePreconditionerMindsThem) {
     EXPECT_EQ(usesOf(use, held(), {}), std::pair(use, use));
   EXPECT_EQ(usesOf(Use::automatic, uniform, {}), std::pair(Use::no, Use::no));
   EXPECT_EQ(usesOf(Use::yes, uniform, {}), std::pair(Use::yes, Use::yes));
+  PlanFacts slipping = uniform, stepped = uniform;
+  slipping.numFriction = 8;
+  stepped.run.solvesAgain = true;
+  for (const PlanFacts& takesMany : {slipping, stepped})
+    EXPECT_EQ(usesOf(Use::automatic, takesMany, {}), std::pair(Use::automatic, Use::automatic));
+  slipping.run.purpose = Purpose::mesh; // which begins on the last mesh's faces
+  EXPECT_EQ(usesOf(Use::automatic, slipping, {}), std::pair(Use::no, Use::no));
   EXPECT_EQ(usesOf(Use::automatic, held(), withoutPreconditioner()), std::pair(Use::no, Use::no));
   EXPECT_EQ(usesOf(Use::yes, held(), withoutPreconditioner()), std::pair(Use::yes, Use::no));
 }

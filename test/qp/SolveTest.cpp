@@ -87,9 +87,10 @@ TEST(QpAlgorithmTest, RowsMayBeGivenAsAConstraintOfOnesOwn) {
   }
 }
 
-/// min ½|x|² − bᵀx over x_0 ≥ 0, |x_1| ≤ x_0/2 in every pair of entries: for b = (2, 3) x = (2, 1).
+/// min ½|x|² − bᵀx over x_0 ≥ 0, |x_1| ≤ x_0/2 (or another slope) in every pair of entries: for b = (2, 3) x = (2, 1).
 struct Wedges {
   bool knowGrowth = false; ///< whether the set tells how its bounds grow
+  double slope = 0.5;
   RCP<const Map> map = ofPairs(4);
   qp::QuadraticProgram program{.hessian = rcp(new test::DenseOperator(map, Eigen::MatrixXd::Identity(8, 8))),
                                .linearTerm = test::makeVector(map, ends(2, 3)),
@@ -116,12 +117,12 @@ struct Wedges {
     const Eigen::VectorXd values = test::gather(x);
     Eigen::VectorXd lower = ends(0, 0), upper = ends(test::unlimited, 0);
     for (Eigen::Index i = 1; i < 8; i += 2) {
-      upper[i] = 0.5 * std::max(values[i - 1], 0.0);
+      upper[i] = slope * std::max(values[i - 1], 0.0);
       lower[i] = -upper[i];
     }
     std::vector<qp::Box::Growth> growth;
     for (LocalOrdinal i = 0; knowGrowth && i < static_cast<LocalOrdinal>(numLocal(*map)); i += 2)
-      growth.push_back({i + 1, i, 0.5});
+      growth.push_back({i + 1, i, slope});
     return rcp(new qp::Box(test::makeVector(map, lower), test::makeVector(map, upper), growth));
   }
 };
@@ -133,7 +134,31 @@ TEST(SolveTest, ASetThatMovesWithTheSolutionIsFollowed) {
     const auto report = qp::solve(wedges.program, method, {1e-10, 1.0}, {}, x);
     EXPECT_EQ(report.status, Status::converged) << report.reason;
     EXPECT_LE((test::gather(x) - Wedges::ends(2, 1)).norm(), 1e-9);
+    EXPECT_EQ(report.counts.fixedPointRounds > 0, method == Method::fixedPoint);
+    EXPECT_EQ(report.counts.negativeCurvatures, 0);
   }
+}
+
+/// Of each pair of A = (1, −0.9; −0.9, 1), |x_1| ≤ 2 x_0 and b = (−1.6, 3) 0, (2, 4) and (5.8, 8.2) are solutions;
+/// on the face of the second one 1 − 0.9 · 2 < 0.
+TEST(SolveTest, CurvatureBelowZeroOnAFaceWithBoundsThatFollowIsCounted) {
+  Wedges wedges;
+  wedges.knowGrowth = true;
+  wedges.slope = 2;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(8, 8);
+  for (Eigen::Index i = 0; i < 8; i += 2)
+    a(i, i + 1) = a(i + 1, i) = -0.9;
+  wedges.program.hessian = rcp(new test::DenseOperator(wedges.map, a));
+  wedges.program.linearTerm = test::makeVector(wedges.map, Wedges::ends(-1.6, 3));
+  wedges.program.operatorNorm = 1.9;
+  Vector x(*test::makeVector(wedges.map, Wedges::ends(2.5, 5)), Teuchos::Copy);
+  wedges.program.set = wedges.setAt(x);
+
+  const auto report = qp::solve(wedges.program, Method::activeSets, {1e-10, 1.0}, {}, x);
+
+  EXPECT_EQ(report.status, Status::converged) << report.reason;
+  EXPECT_LE((test::gather(x) - Wedges::ends(2, 4)).norm(), 1e-9);
+  EXPECT_GT(report.counts.negativeCurvatures, 0);
 }
 
 TEST(SolveTest, BoundsThatAreKnownToGrowAreFollowedOnTheirFace) {

@@ -252,17 +252,21 @@ std::optional<Status> FaceIteration::followingStep() {
     addScaled(-share, kept_[i].image, image_);
   }
   face.restrict(image_, r_);
-  std::array<AccurateSum, 4> sums;
+  std::array<AccurateSum, 6> sums;
   addDot(r_, r_, sums[0]);
   addDot(g_, r_, sums[1]);
   addDot(p_, image_, sums[2]);
   addDot(g_, p_, sums[3]);
+  addDot(p_, r_, sums[4]); // pᵀAp of the face
+  addDot(p_, p_, sums[5]);
   sumOverRanks(*x.getMap()->getComm(), sums);
   const double squared = sums[0].value(), along = sums[1].value();
   if (!(squared > 0)) {
     hasFollowers_ = false;
     return std::nullopt;
   }
+  if (objective_.scale() * sums[4].value() < -objective_.zeroCurvature(sums[5].value()))
+    ++counts_.negativeCurvatures;
   const double length = along / (objective_.scale() * squared);
   copy(p_, kept_[numKept_].direction);
   copy(image_, kept_[numKept_].image);

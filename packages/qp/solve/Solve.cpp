@@ -203,6 +203,7 @@ void Course::fixSet(RCP<const ConvexSet> first) {
     if (tolerances_.error == nullptr && reference > 0)
       rough.gradient = std::clamp(share * moved / reference, tolerances_.gradient, roughest);
     roughest = rough.gradient;
+    ++report_.counts.fixedPointRounds;
     solveWithin(given, rough, reduction);
     if (report_.status != Status::converged)
       return;

@@ -61,7 +61,8 @@ void append(const SolveReport& further, SolveReport& report) {
   for (int StepCounts::*const count :
        {&StepCounts::outer, &StepCounts::conjugateGradient, &StepCounts::expansion,
         &StepCounts::proportioning, &StepCounts::hessianMultiplications,
-        &StepCounts::preconditionerApplications, &StepCounts::safeguards, &StepCounts::normCorrections})
+        &StepCounts::preconditionerApplications, &StepCounts::safeguards, &StepCounts::normCorrections,
+        &StepCounts::negativeCurvatures, &StepCounts::fixedPointRounds})
     counts.*count += further.counts.*count;
 }
 

@@ -59,6 +59,9 @@ struct StepCounts {
   int preconditionerApplications = 0;
   int safeguards = 0;      ///< expansions repeated because the objective grew
   int normCorrections = 0; ///< times that ‖A‖ turned out to be larger than estimated
+  // Of a set Ω(x), signs that its solution may not be the only one:
+  int negativeCurvatures = 0; ///< steps on faces that take its bounds along, with pᵀAp < 0
+  int fixedPointRounds = 0;   ///< problems with a given Ω that were solved, as such faces did not settle
 };
 
 /// The conditions of Karush, Kuhn and Tucker at the point returned, recomputed from scratch. The gradients

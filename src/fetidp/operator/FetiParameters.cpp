@@ -29,7 +29,8 @@ void addAdaptiveConstraintParameters(Teuchos::ParameterList& list) {
   addChoice(list, "Use", "auto",
             "Whether jumps between subdomains that the preconditioner overrates are looked for along "
             "interfaces, by eigenproblems, and taken out of the iteration: along all ('yes'), or with a "
-            "preconditioner along those where the stiffness jumps ('auto').",
+            "preconditioner along those where the stiffness jumps ('auto'); in a scene without several "
+            "materials in a body only where friction or load steps take many products.",
             uses);
   addReal(list, "Threshold", defaults.threshold,
           "Jumps are constrained whose energy the preconditioner overrates by more than this factor. Lower: "

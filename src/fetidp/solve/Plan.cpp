@@ -124,7 +124,8 @@ void chooseFaces(const PlanFacts& facts, const DualParameters& parameters, Plan&
 }
 
 /// Scaling takes care of jumps of gluing between subdomains. What uneven meshes do to the diagonal costs up
-/// to a half more products, and constraints as much time as they save: they have to be cheap in memory.
+/// to three quarters more products, and constraints more time than they save, but where friction or load
+/// steps take many: they have to be cheap in memory.
 /// Where a stiff subdomain touches a stiff one, and soft ones hold them, both would rather move: M, which
 /// stretches the contact alone, knows nothing of it. Membranes do without: they gain with checkerboards and
 /// lose with stripes. A correction at a contact costs products with F and M as it is made, and active sets on
@@ -137,16 +138,18 @@ void chooseSearches(const PlanFacts& facts, const DualParameters& parameters, Pl
   plan.gluing = {given, false, 1e9, factor * given.stiffnessRatio};
   plan.contact = {given, facts.isElastic, inf, 0};
   plan.contact.stiffnessRatio *= factor;
-  if (isOpen && (isBlind || facts.run.isUniform))
+  const bool takesMany =
+      (facts.numFriction > 0 && facts.run.purpose == Purpose::solution) || facts.run.solvesAgain;
+  const bool isNotWorthIt = facts.run.isUniform && !takesMany;
+  if (isOpen && (isBlind || isNotWorthIt))
     plan.gluing.use = plan.contact.use = Use::no;
   if (isBlind)
     plan.contact.use = Use::no;
   plan.reasons["Adaptive Constraints"] =
-      !isOpen   ? "as given"
-      : isBlind ? "no: there is no preconditioner"
-      : facts.run.isUniform
-          ? "no: the stiffness varies as sizes of elements do, which no preconditioner minds"
-          : "along interfaces with jumps of the stiffness, which the preconditioner overrates";
+      !isOpen        ? "as given"
+      : isBlind      ? "no: there is no preconditioner"
+      : isNotWorthIt ? "no: the stiffness varies as sizes of elements do, which costs less than constraints"
+                     : "along interfaces with jumps of the stiffness, which the preconditioner overrates";
 }
 
 } // namespace
