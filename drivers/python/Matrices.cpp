@@ -42,7 +42,8 @@ public:
   void add(int body, const Row<GlobalOrdinal>& unknowns, const CompressedRows& stiffness,
            const Row<double>& places, GlobalOrdinal firstNode, const std::map<GlobalOrdinal, double>& held) {
     const Eigen::MatrixXd table = tableOf(places);
-    decomposition::SubdomainMatrix matrix;
+    std::vector<decomposition::SubdomainMatrix> only(1);
+    decomposition::SubdomainMatrix& matrix = only[0];
     matrix.body = body;
     matrix.unknowns.assign(unknowns.data(), unknowns.data() + unknowns.size());
     const auto& [starts, columns, values] = stiffness;
@@ -52,7 +53,7 @@ public:
     matrix.coordinates.resize(unknowns.size(), table.cols());
     for (py::ssize_t i = 0; i < unknowns.size(); ++i)
       matrix.coordinates.row(i) = table.row(unknowns.data()[i] / components_ - firstNode);
-    take(std::move(matrix), held);
+    take(std::move(only), held);
   }
 
   /// A body of element matrices. \param unknowns  m × e \param stiffness  m × e × e \param parts  m
@@ -72,16 +73,16 @@ public:
           Eigen::Map<const Eigen::MatrixXd>(stiffness.data(element, 0, 0), perElement, perElement);
       elements.add(parts.data()[element], {own, coordinates, matrix, noLoad}, body);
     }
-    for (decomposition::SubdomainMatrix& matrix : elements.take())
-      take(std::move(matrix), held);
+    take(elements.take(), held);
   }
 
   /// \param names  of the bodies
   void begin(std::vector<std::string> names, const std::string& parameters) {
     solver_ = std::make_unique<ContactSolver>(scene::parseParameters(parameters, "parameters"));
     problem_.emplace(comm_, dimension_, components_, std::move(names));
-    for (decomposition::SubdomainMatrix& matrix : matrices_)
-      problem_->add(std::move(matrix));
+    for (std::vector<decomposition::SubdomainMatrix>& body : matrices_)
+      for (decomposition::SubdomainMatrix& matrix : body)
+        problem_->add(std::move(matrix));
     matrices_.clear();
   }
 
@@ -128,12 +129,14 @@ public:
   py::dict solve(const Row<double>& loads, const Row<double>& gaps, const py::object& progress);
 
 private:
-  void take(decomposition::SubdomainMatrix&& matrix, const std::map<GlobalOrdinal, double>& held) {
-    for (const GlobalOrdinal unknown : matrix.unknowns)
-      if (const auto found = held.find(unknown); found != held.end())
-        matrix.prescribed.emplace_back(unknown, found->second);
-    unknowns_.push_back(matrix.unknowns);
-    matrices_.push_back(std::move(matrix));
+  void take(std::vector<decomposition::SubdomainMatrix> body, const std::map<GlobalOrdinal, double>& held) {
+    for (decomposition::SubdomainMatrix& matrix : body) {
+      for (const GlobalOrdinal unknown : matrix.unknowns)
+        if (const auto found = held.find(unknown); found != held.end())
+          matrix.prescribed.emplace_back(unknown, found->second);
+      unknowns_.push_back(matrix.unknowns);
+    }
+    matrices_.push_back(std::move(body));
   }
   void setLoads(const Row<double>& loads) {
     std::size_t place = 0;
@@ -174,7 +177,7 @@ private:
 
   int dimension_, components_;
   RCP<const Comm> comm_;
-  std::vector<decomposition::SubdomainMatrix> matrices_; ///< before `begin`
+  std::vector<std::vector<decomposition::SubdomainMatrix>> matrices_; ///< of each body, before `begin`
   std::optional<decomposition::UnassembledProblem> problem_;
   std::vector<std::vector<GlobalOrdinal>> unknowns_; ///< of each subdomain
   std::vector<bool> hasLoad_;                        ///< of their unknowns, one subdomain after the other

@@ -137,8 +137,11 @@ class Problem:
         """Values by numbers through all bodies, of unknowns that are among those of the matrices."""
         held = held or {}
         supported = self._numbers(list(held), places, "held unknowns")
-        if (missing := numpy.setdiff1d(supported, numbers)).size:
-            raise _epafi.InputError(f"unknown {missing[0] - self.unknowns} is held, but has no row in the matrices of the body")
+        has_row = numpy.zeros(len(places) * self.components, dtype=bool)
+        has_row[numbers - self.unknowns] = True
+        if (missing := numpy.flatnonzero(~has_row[supported - self.unknowns])).size:
+            raise _epafi.InputError(f"unknown {supported[missing[0]] - self.unknowns} is held, but has no row in the matrices of "
+                                    "the body")
         return dict(zip(supported.tolist(), reals(list(held.values()), "held values").tolist()))
 
     def _rows(self, matrix: Any) -> tuple:
