@@ -242,7 +242,7 @@ TEST_F(CheckpointTest, WhatIsNoCheckpointIsRefused) {
   expectSays(refusalOf("\x89HDF\r\n\x1a\n and so on"), {"no checkpoint of Epafi"});
   expectSays(refusalOf(std::string(100000, 'x')), {"no checkpoint of Epafi"});
   expectSays(refusalOf("Epafi checkpoint 1\n"), {"another version"});
-  expectSays(refusalOf("Epafi checkpoint 3\norder middle\n"), {"another order"});
+  expectSays(refusalOf("Epafi checkpoint 4\norder middle\n"), {"another order"});
 }
 
 TEST_F(CheckpointTest, AFileCutOffAnywhereIsRefused) {

@@ -54,7 +54,7 @@ Vector3 vectorOf(const Eigen::Vector3d& v) {
   return {v[0], v[1], v[2]};
 }
 
-fem::SolidLoad pressure(const std::string& surface, double value) {
+fem::SolidLoad pressureOn(const std::string& surface, double value) {
   return {"pressure on " + surface, fem::SolidLoad::Kind::pressure, {}, surface, {}, {value, 0, 0}};
 }
 
@@ -79,7 +79,7 @@ TEST(VerdictsTest, WhatSlidesBetweenParallelPlanesHasNoSolutionWhateverItsAngle)
         scene.bodies[0].supports = {slide("bottom")};
         if (dimension == 3)
           scene.bodies[0].supports.push_back(slide("front"));
-        scene.bodies[0].loads = {pressure("right", -1e-3)};
+        scene.bodies[0].loads = {pressureOn("right", -1e-3)};
         const Eigen::Vector3d up = placement.turn.col(dimension - 1);
         scene.contacts = {
             onPlane("ceiling", 0, "top", vectorOf(placement.of({0, 0, 0}) + up), vectorOf(-up))};
@@ -103,8 +103,8 @@ TEST(VerdictsTest, ABodyWhoseLoadsCancelHidesNoOther) {
         scene.bodies.back().material.youngsModulus = 200 * unit;
       }
       scene.bodies[0].loads = {
-          pressure("left", unit)}; // against its own support: nothing along it but round-off
-      scene.bodies[1].loads = {pressure("top", unit)};
+          pressureOn("left", unit)}; // against its own support: nothing along it but round-off
+      scene.bodies[1].loads = {pressureOn("top", unit)};
       const Eigen::Vector3d up = placement.turn.col(1);
       scene.contacts = {onPlane("floor", 0, "bottom", vectorOf(placement.of({0, 0, 0})), vectorOf(up)),
                         between("joint", 0, "top", 1, "bottom")};
