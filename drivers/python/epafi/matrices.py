@@ -288,9 +288,9 @@ class Problem:
         for kind, (given, what) in enumerate(((gaps, "the gaps"), (slips, "the slips"), (tie_gaps, "the gaps of ties"))):
             if given is not None:
                 self._gaps[kind] = _per_row(given, len(self._gaps[kind]), what)
-        if not self._is_complete:
-            self._complete(_parameters.xml({"Tolerance": tolerance, **(parameters or {})}, _epafi.solver_schema(), "Solver"))
         with shown(progress, None) as tell:
+            if not self._is_complete:
+                self._complete(_parameters.xml({"Tolerance": tolerance, **(parameters or {})}, _epafi.solver_schema(), "Solver"))
             solution = Solution(**self._problem.solve(loads, numpy.concatenate(self._gaps), tell))
         if check and not solution.converged:
             raise NotConverged(solution)
