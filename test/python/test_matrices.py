@@ -2,7 +2,6 @@
 """test_matrices.py: contact of matrices of one's own, beside dense solutions."""
 
 import sys
-import threading
 import unittest
 
 import numpy
@@ -314,23 +313,6 @@ class Matrices(unittest.TestCase):
             with self.subTest(add):
                 self.assertGreater(forces[0], 0)
                 numpy.testing.assert_array_equal(*forces)
-
-    def test_threads_take_turns(self):
-        a, found = scipy.sparse.diags([-1, 2, -1], [-1, 0, 1], shape=(60, 60)), []
-
-        def solve(number):
-            for _ in range(5):
-                problem, loads, _ = self.shelf_and_cloth(8, parts=2)
-                inner = epafi.solve_qp(lambda x: epafi.solve_qp(a, 0 * x, upper=1).x + a @ x, numpy.ones(60), upper=5)
-                found.append((number, problem.solve(loads).energy, inner.objective))
-
-        threads = [threading.Thread(target=solve, args=(number,)) for number in range(4)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(len(found), 20)
-        self.assertEqual(len({result[1:] for result in found}), 1)
 
     def test_what_does_not_fit_is_refused_in_a_sentence(self):
         coordinates, nodes, matrices = membrane(2, 2)
