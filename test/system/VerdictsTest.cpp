@@ -24,9 +24,10 @@ struct Outcome {
   double energy = 0, equilibrium = 0;
 };
 
-Outcome outcomeOf(const scene::Scene& scene, const std::string& algorithm = "auto") try {
+Outcome outcomeOf(const scene::Scene& scene, const std::string& algorithm = "auto",
+                  double tolerance = 1e-6) try {
   const auto decomposition = model::decompose(scene, Tpetra::getDefaultComm());
-  ContactSolver solver(Teuchos::ParameterList().set("Algorithm", algorithm));
+  ContactSolver solver(Teuchos::ParameterList().set("Algorithm", algorithm).set("Tolerance", tolerance));
   solver.setup(decomposition.problem, decomposition.data);
   const fetidp::ContactSolution solution = solver.solve(decomposition.data);
   return {solver.report().status == qp::Status::converged ? Verdict::solved : Verdict::stopped,
@@ -159,6 +160,28 @@ TEST(VerdictsTest, ForcesWithinTheToleranceHoldNothing) {
           scene.contacts[1].gap = -0.02; // now they squeeze it
           EXPECT_EQ(outcomeOf(scene, algorithm).verdict, Verdict::solved);
         }
+}
+
+/// Each node carries less than the tolerance of the whole.
+TEST(VerdictsTest, SmallForcesOfManyNodesHoldABodyWhateverTheTolerance) {
+  for (const int dimension : {2, 3})
+    for (const double tolerance : {1.0, 0.3, 0.1})
+      for (const std::string algorithm : {"auto", "MPRGP"}) {
+        scene::Scene scene;
+        const int n = dimension == 2 ? 32 : 8;
+        scene.bodies = {block("block",
+                              dimension == 2 ? mesh::rectangle(0, 1, 0, 1) : mesh::Box{{0, 0, 0}, {1, 1, 1}},
+                              {n, 4, dimension == 2 ? 0 : 4}, cutByMetis(2))};
+        scene.bodies[0].supports = {slide("left")};
+        if (dimension == 3)
+          scene.bodies[0].supports.push_back(slide("front"));
+        const Vector3 up = dimension == 2 ? Vector3{0, 1, 0} : Vector3{0, 0, 1};
+        scene.contacts = {onPlane("floor", 0, "bottom", {0, 0, 0}, up)};
+        EXPECT_EQ(outcomeOf(scene, algorithm, tolerance).verdict, Verdict::notUnique); // without a load
+        scene.bodies[0].loads = {weight({-up[0], -up[1], -up[2]})};
+        const Outcome outcome = outcomeOf(scene, algorithm, tolerance);
+        EXPECT_EQ(outcome.verdict, Verdict::solved) << tolerance << ' ' << algorithm << ' ' << outcome.text;
+      }
 }
 
 /// Two squares, one tied onto the other; the lower one's left side is held `apart` from that of the upper
