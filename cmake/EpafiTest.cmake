@@ -53,6 +53,7 @@ function(epafi_test name)
     set(TEST_TIMEOUT 600) # against hanging; a loaded machine is slow
   endif()
   add_executable(test_${name} ${TEST_SOURCES} ${TEST_ALONE})
+  set_property(DIRECTORY APPEND PROPERTY EPAFI_TEST_SOURCES ${TEST_SOURCES} ${TEST_ALONE})
   target_link_libraries(test_${name} PRIVATE epafi_test_main ${TEST_USES})
   target_compile_definitions(test_${name} PRIVATE EPAFI_SOURCE_DIR="${Epafi_SOURCE_DIR}")
   epafi_test_code(test_${name})

@@ -19,6 +19,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace epafi::python {
 namespace {
@@ -30,18 +31,19 @@ Eigen::MatrixXd tableOf(const Row<double>& table) {
 }
 
 /// A contact problem of an application's matrices, all of it on this rank. Unknowns are numbered through all
-/// bodies.
+/// bodies, which come before `begin`.
 class Problem {
 public:
-  Problem(int dimension, int components, std::vector<std::string> bodies)
-      : components_(components), comm_(rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF))),
-        problem_(comm_, dimension, components, std::move(bodies)) {}
+  Problem(int dimension, int components)
+      : dimension_(dimension), components_(components), comm_(rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF))) {
+  }
 
   /// A body that is one subdomain. \param unknowns  of each row of the matrix \param places  of each node
   void add(int body, const Row<GlobalOrdinal>& unknowns, const CompressedRows& stiffness,
            const Row<double>& places, GlobalOrdinal firstNode, const std::map<GlobalOrdinal, double>& held) {
     const Eigen::MatrixXd table = tableOf(places);
-    decomposition::SubdomainMatrix matrix;
+    std::vector<decomposition::SubdomainMatrix> only(1);
+    decomposition::SubdomainMatrix& matrix = only[0];
     matrix.body = body;
     matrix.unknowns.assign(unknowns.data(), unknowns.data() + unknowns.size());
     const auto& [starts, columns, values] = stiffness;
@@ -51,7 +53,7 @@ public:
     matrix.coordinates.resize(unknowns.size(), table.cols());
     for (py::ssize_t i = 0; i < unknowns.size(); ++i)
       matrix.coordinates.row(i) = table.row(unknowns.data()[i] / components_ - firstNode);
-    take(std::move(matrix), held);
+    take(std::move(only), held);
   }
 
   /// A body of element matrices. \param unknowns  m × e \param stiffness  m × e × e \param parts  m
@@ -71,8 +73,17 @@ public:
           Eigen::Map<const Eigen::MatrixXd>(stiffness.data(element, 0, 0), perElement, perElement);
       elements.add(parts.data()[element], {own, coordinates, matrix, noLoad}, body);
     }
-    for (decomposition::SubdomainMatrix& matrix : elements.take())
-      take(std::move(matrix), held);
+    take(elements.take(), held);
+  }
+
+  /// \param names  of the bodies
+  void begin(std::vector<std::string> names, const std::string& parameters) {
+    solver_ = std::make_unique<ContactSolver>(scene::parseParameters(parameters, "parameters"));
+    problem_.emplace(comm_, dimension_, components_, std::move(names));
+    for (std::vector<decomposition::SubdomainMatrix>& body : matrices_)
+      for (decomposition::SubdomainMatrix& matrix : body)
+        problem_->add(std::move(matrix));
+    matrices_.clear();
   }
 
   /// B and c of contact, or of ties.
@@ -80,9 +91,9 @@ public:
     decomposition::ConstraintMatrix given{matrixOf(rows, numUnknowns, comm_), Teuchos::null};
     given.gap = vectorOf(gaps, given.rows->getRowMap(), "the gaps");
     if (areTied)
-      problem_.setTies(given);
+      problem_->setTies(given);
     else
-      problem_.setContact(contact_ = given);
+      problem_->setContact(contact_ = given);
   }
 
   /// \param tangents      T and s; nothing: along the tangents of each row of contact
@@ -94,18 +105,17 @@ public:
     coefficients_ = coefficients;
     bounds_ = bounds;
     if (!tangents) {
-      problem_.setFriction(decomposition::frictionAlong(contact_, components_));
+      problem_->setFriction(decomposition::frictionAlong(contact_, components_));
       return;
     }
     const RCP<const CrsMatrix> rows = matrixOf(tangents->first, numUnknowns, comm_);
-    problem_.setFriction({{rows, vectorOf(tangents->second, rows->getRowMap(), "the slips")}, nodes});
+    problem_->setFriction({{rows, vectorOf(tangents->second, rows->getRowMap(), "the slips")}, nodes});
   }
 
-  void complete(const std::string& parameters) {
+  void complete() {
     const double began = Teuchos::Time::wallTime();
-    problem_.complete();
+    problem_->complete();
     seconds_ = Teuchos::Time::wallTime() - began;
-    solver_ = std::make_unique<ContactSolver>(scene::parseParameters(parameters, "parameters"));
     std::vector<bool> isTaken; // the first subdomain has the load of an unknown
     for (const std::vector<GlobalOrdinal>& own : unknowns_)
       for (const GlobalOrdinal unknown : own) {
@@ -119,12 +129,14 @@ public:
   py::dict solve(const Row<double>& loads, const Row<double>& gaps, const py::object& progress);
 
 private:
-  void take(decomposition::SubdomainMatrix&& matrix, const std::map<GlobalOrdinal, double>& held) {
-    for (const GlobalOrdinal unknown : matrix.unknowns)
-      if (const auto found = held.find(unknown); found != held.end())
-        matrix.prescribed.emplace_back(unknown, found->second);
-    unknowns_.push_back(matrix.unknowns);
-    problem_.add(std::move(matrix));
+  void take(std::vector<decomposition::SubdomainMatrix> body, const std::map<GlobalOrdinal, double>& held) {
+    for (decomposition::SubdomainMatrix& matrix : body) {
+      for (const GlobalOrdinal unknown : matrix.unknowns)
+        if (const auto found = held.find(unknown); found != held.end())
+          matrix.prescribed.emplace_back(unknown, found->second);
+      unknowns_.push_back(matrix.unknowns);
+    }
+    matrices_.push_back(std::move(body));
   }
   void setLoads(const Row<double>& loads) {
     std::size_t place = 0;
@@ -133,7 +145,7 @@ private:
       for (std::size_t i = 0; i < unknowns_[s].size(); ++i, ++place)
         if (hasLoad_[place])
           load[static_cast<Eigen::Index>(i)] = loads.data()[unknowns_[s][i]];
-      problem_.setLoad(s, load);
+      problem_->setLoad(s, load);
     }
   }
   /// \param values  u
@@ -150,7 +162,7 @@ private:
         forces.push_back(multipliers[solution.multiplier->getMap()->getLocalElement(row)]);
       return arrayOf(std::move(forces));
     };
-    const decomposition::DecomposedProblem& all = problem_.problem();
+    const decomposition::DecomposedProblem& all = problem_->problem();
     const SolveFacts facts = solver_->facts();
     using namespace py::literals;
     return py::dict("u"_a = arrayOf(std::move(u)), "forces"_a = forcesOf(0, all.numInequalities),
@@ -163,9 +175,10 @@ private:
                     "projected_gradient"_a = solution.relativeProjectedGradient);
   }
 
-  int components_;
+  int dimension_, components_;
   RCP<const Comm> comm_;
-  decomposition::UnassembledProblem problem_;
+  std::vector<std::vector<decomposition::SubdomainMatrix>> matrices_; ///< of each body, before `begin`
+  std::optional<decomposition::UnassembledProblem> problem_;
   std::vector<std::vector<GlobalOrdinal>> unknowns_; ///< of each subdomain
   std::vector<bool> hasLoad_;                        ///< of their unknowns, one subdomain after the other
   decomposition::ConstraintMatrix contact_;
@@ -183,16 +196,16 @@ py::dict Problem::solve(const Row<double>& loads, const Row<double>& gaps, const
     const py::gil_scoped_release noLock;
     const double began = Teuchos::Time::wallTime();
     setLoads(loads);
-    decomposition::ProblemData data = problem_.data();
+    decomposition::ProblemData data = problem_->data();
     data.setGaps(*vectorOf(gaps, rcp(new Map(gaps.size(), 0, comm_)), "the gaps"));
     if (!coefficients_.empty()) {
-      data.setFrictionCoefficients(problem_.problem(), coefficients_);
-      data.setFrictionBounds(problem_.problem(), bounds_);
+      data.setFrictionCoefficients(problem_->problem(), coefficients_);
+      data.setFrictionBounds(problem_->problem(), bounds_);
     }
     if (last_.is_null())
-      solver_->setup(problem_.problem(), data);
+      solver_->setup(problem_->problem(), data);
     solution = solver_->solve(data, last_.get(), &watch);
-    values = problem_.unknowns(solution.displacement);
+    values = problem_->unknowns(solution.displacement);
     seconds_ = (last_.is_null() ? seconds_ : 0) + Teuchos::Time::wallTime() - began;
   }
   if (solver_->report().status == qp::Status::interrupted)
@@ -231,7 +244,8 @@ py::array_t<int> partsOf(const Row<idx_t>& nodes, idx_t numNodes, idx_t numParts
 
 void defineMatrices(py::module_& module) {
   py::class_<Problem>(module, "Problem")
-      .def(py::init<int, int, std::vector<std::string>>())
+      .def(py::init<int, int>())
+      .def("begin", &Problem::begin)
       .def("add", &Problem::add)
       .def("add_elements", &Problem::addElements)
       .def("set_rows", &Problem::setRows)

@@ -187,7 +187,7 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
     const double one = unknownsOfOrderOne(*last, dimension, goal.target),
                  two = unknownsOfOrderTwo(*last, dimension);
     std::ostringstream text;
-    if (result.isMet)
+    if (last->relative() <= goal.target)
       text << "elements of order 1 on the first mesh make no more error than is allowed";
     else if (one <= two)
       text << "order 1 needs some " << rounded(one) << " unknowns for it, order 2 " << rounded(two)
@@ -215,7 +215,12 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
     if (!result.isEndless)
       result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
     constexpr double nothing = 1.001;
-    if (result.reason.empty() && wanted.growth < nothing)
+    const bool isFineEnough = result.reason.empty() && wanted.growth < nothing;
+    if (isFineEnough && last->failure.empty() && last->relative() <= goal.target) {
+      result.isMet = true; // no element adds to the bar, which no other mesh could confirm
+      break;
+    }
+    if (isFineEnough)
       result.reason = "the mesh is fine enough, but the iteration is not; ask it for a smaller tolerance";
     if (!result.reason.empty())
       break;

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 /// No header is longer.
 constexpr std::size_t longestHeader = 1024;
 constexpr std::string_view title = "Epafi checkpoint ";
-constexpr std::string_view version = "3";
+constexpr std::string_view version = "4";
 constexpr std::string_view order = std::endian::native == std::endian::little ? "little" : "big";
 
 /// Counts in the order of the file.

@@ -16,7 +16,8 @@ namespace {
 
 using simulation::ContactResult, simulation::FrictionFeedback, simulation::FrictionResult,
     simulation::HeldSupport, simulation::JointBalance, simulation::NodeSlip, simulation::PreloadResult,
-    simulation::RunStatus, simulation::StepResult, simulation::StepsDone, simulation::SupportResult;
+    simulation::RunStatus, simulation::StepResult, simulation::StepsDone, simulation::SupportResult,
+    simulation::TieResult, simulation::HoldResult;
 
 /// Appends values to a text.
 class StepsWriter {
@@ -137,9 +138,14 @@ private:
   }
   void pass(SupportResult& support) { (*this)(support.body, support.name, support.force, support.moment); }
   void pass(PreloadResult& preload) { (*this)(preload.name, preload.force, preload.shortening); }
+  void pass(TieResult& tie) {
+    (*this)(tie.name, tie.nodes, tie.resultant, tie.largestTraction, tie.note, tie.balance);
+  }
+  void pass(HoldResult& hold) { (*this)(hold.motion, hold.force, hold.place); }
   void pass(StepResult& step) {
     (*this)(step.name, step.multiplications, step.strainEnergy, step.loadWork, step.dissipation,
-            step.contacts, step.supports, step.preloads, step.reason, step.feedback, step.relativeError);
+            step.contacts, step.supports, step.preloads, step.ties, step.holds, step.doubts, step.reason,
+            step.feedback, step.relativeError);
     step.status = RunStatus::converged; // others are not done
   }
   void pass(FrictionFeedback& feedback) { (*this)(feedback.factor, feedback.multiplications); }

@@ -10,6 +10,7 @@
 #include <Teuchos_XMLObject.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -117,6 +118,36 @@ int nestingOf(const std::string& text) {
   return deepest;
 }
 
+/// In UTF-8, of ASCII's as a reference, which stands for no tag.
+std::string letter(unsigned long number) {
+  if (number < 0x80)
+    return "&#" + std::to_string(number) + ';';
+  const auto tail = [&](int shift) { return static_cast<char>(0x80 | ((number >> shift) & 0x3F)); };
+  if (number < 0x800)
+    return {static_cast<char>(0xC0 | (number >> 6)), tail(0)};
+  if (number < 0x10000)
+    return {static_cast<char>(0xE0 | (number >> 12)), tail(6), tail(0)};
+  return {static_cast<char>(0xF0 | (number >> 18)), tail(12), tail(6), tail(0)};
+}
+
+/// References to letters (&#228;, &#xE4;) as these letters: Teuchos knows those of bytes alone, by decimals.
+std::string withLetters(const std::string& text) {
+  std::string result;
+  std::size_t done = 0;
+  for (std::size_t i = text.find("&#"); i != std::string::npos; i = text.find("&#", i + 1)) {
+    const bool isHexadecimal = text.compare(i + 2, 1, "x") == 0;
+    const std::size_t begin = i + (isHexadecimal ? 3 : 2), end = text.find(';', begin);
+    unsigned long number = 0;
+    if (end == std::string::npos ||
+        std::from_chars(&text[begin], &text[end], number, isHexadecimal ? 16 : 10).ptr != &text[end] ||
+        number == 0 || number > 0x10FFFF)
+      continue;
+    result.append(text, done, i - done).append(letter(number));
+    done = end + 1;
+  }
+  return result.append(text, done);
+}
+
 XMLObject parsedXml(const std::string& text, const std::string& where) {
   const std::string byteOrderMark = "\xEF\xBB\xBF";
   const bool hasMark = text.starts_with(byteOrderMark);
@@ -130,7 +161,7 @@ XMLObject parsedXml(const std::string& text, const std::string& where) {
     throw InputError(where + " nests its elements more than " + std::to_string(deepest) +
                      " deep, which no parameter file should.");
   try {
-    Teuchos::StringInputSource source(content);
+    Teuchos::StringInputSource source(withLetters(content));
     return source.getObject();
   } catch (const std::exception& error) {
     const std::string report = error.what();

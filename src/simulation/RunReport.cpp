@@ -185,6 +185,14 @@ void enterPreload(const PreloadResult& preload, ParameterList& list) {
   list.set("Force", preload.force).set("Shortening", preload.shortening);
 }
 
+void enterHolds(const std::vector<HoldResult>& holds, ParameterList& list) {
+  for (const HoldResult& hold : holds)
+    list.sublist("Holds")
+        .sublist(hold.motion)
+        .set("Force", arrayOf(hold.force))
+        .set("Place", arrayOf(hold.place));
+}
+
 void enterStep(const StepResult& step, ParameterList& list) {
   list.set("Hessian Multiplications", step.multiplications)
       .set("Strain Energy", step.strainEnergy)
@@ -198,6 +206,11 @@ void enterStep(const StepResult& step, ParameterList& list) {
   enterSupports(step.supports, list);
   for (const PreloadResult& preload : step.preloads)
     enterPreload(preload, list.sublist("Preload").sublist(preload.name));
+  for (const TieResult& tie : step.ties)
+    enterTie(tie, list.sublist("Tied").sublist(tie.name));
+  enterHolds(step.holds, list);
+  if (!step.doubts.empty())
+    list.set("Doubts", step.doubts);
 }
 
 void enterMesh(const accuracy::MeshResult& mesh, ParameterList& list) {
@@ -311,11 +324,7 @@ ParameterList reportOf(const RunResult& result) {
   enterSupports(result.supports, list);
   for (const PreloadResult& preload : result.preloads)
     enterPreload(preload, list.sublist("Preload").sublist(preload.name));
-  for (const HoldResult& hold : result.holds)
-    list.sublist("Holds")
-        .sublist(hold.motion)
-        .set("Force", arrayOf(hold.force))
-        .set("Place", arrayOf(hold.place));
+  enterHolds(result.holds, list);
   for (const BodyResult& body : result.bodies)
     if (body.isElastic)
       list.sublist("Body")

@@ -83,6 +83,9 @@ struct StepResult {
   std::vector<ContactResult> contacts;
   std::vector<SupportResult> supports;
   std::vector<PreloadResult> preloads;
+  std::vector<TieResult> ties;
+  std::vector<HoldResult> holds;
+  std::string doubts; ///< perhaps empty
   RunStatus status = RunStatus::notConverged;
   std::string reason;                                      ///< one sentence
   std::optional<FrictionFeedback> feedback = std::nullopt; ///< with Coulomb's friction
@@ -103,7 +106,7 @@ struct RunResult {
   std::optional<FrictionFeedback> feedback;   ///< with Coulomb's friction
   std::optional<ErrorResult> error;           ///< if asked for
   std::optional<accuracy::EnergyBound> bound; ///< if asked for
-  std::string doubts;                         ///< what an estimate does not see; perhaps empty
+  std::string doubts; ///< what an estimate does not see, of load steps before the last, too; perhaps empty
   std::string missedContacts;       ///< what overlaps without a row (LeftOutNodes.hpp); empty: nothing
   std::optional<Quantity> quantity; ///< if asked for
   std::optional<CoarserStart> start;

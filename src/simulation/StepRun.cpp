@@ -42,10 +42,27 @@ StepResult resultOf(const std::string& name, RunResult& result) {
           result.contacts,
           result.supports,
           result.preloads,
+          result.ties,
+          result.holds,
+          result.doubts,
           result.status,
           result.reason,
           result.feedback,
           result.error ? result.error->relative() : std::numeric_limits<double>::quiet_NaN()};
+}
+
+/// Those of the last step, and of the first one that has others.
+std::string doubtsOf(const std::vector<StepResult>& steps) {
+  std::string doubts = steps.back().doubts;
+  const auto differs = [&](const StepResult& step) {
+    return !step.doubts.empty() && step.doubts != steps.back().doubts;
+  };
+  if (const auto first = std::ranges::find_if(steps, differs); first != steps.end()) {
+    const auto others = std::count_if(first + 1, steps.end(), differs);
+    doubts += (doubts.empty() ? "" : ". ") + first->doubts + inStep(first->name) +
+              (others > 0 ? "; the report has those of " + std::to_string(others) + " more" : "");
+  }
+  return doubts;
 }
 
 /// Does what a step needs; whether it has a solution is said with its name.
@@ -300,6 +317,8 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
     if (tell)
       tell(run);
   }
+  if (!done.results.empty())
+    run.result.doubts = doubtsOf(done.results);
   return run;
 }
 

@@ -109,6 +109,15 @@ TEST(AccuracyLoopTest, ReachesATargetOfAQuantity) {
 }
 
 /// The estimate is a tenth of the error: the change tells.
+/// Such as a displacement that supports prescribe: no element adds to its bar.
+TEST(AccuracyLoopTest, AQuantityWithoutErrorNeedsNoOtherMesh) {
+  Patches problem;
+  problem.hasQuantity = true;
+  problem.estimateByError = 0;
+  const LoopResult result = refineToTarget(problem, {.target = 0.01});
+  EXPECT_TRUE(result.isMet && result.meshes.size() == 1U) << result.reason;
+}
+
 TEST(AccuracyLoopTest, ABarIsNoSmallerThanTheLastChangeLetsExpect) {
   Patches problem;
   problem.hasQuantity = true;

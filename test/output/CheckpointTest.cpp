@@ -131,6 +131,9 @@ simulation::StepsDone stepsDone() {
   step.contacts = {contact, {}};
   step.supports = {{"body", "foot", {1, 2, 3}, {4, 5, 6}}};
   step.preloads = {{"bolt", 100, 0.1}};
+  step.ties = {{"weld", 7, {1, 2, 3}, 0.5, "", {"mortars", 1e-16, 0}}};
+  step.holds = {{"'pin' can turn", {0, -0.1, 0}, {1, 2, 3}}};
+  step.doubts = "pins turn, \nperhaps";
   done.meshes = {0.1, -7e300};
   done.results = {step, {}};
   done.slip = {{0, 1, 77, {0.1, 0.2, 0.3}}, {1, 0, 3, {0, -1, 0}}};
@@ -164,6 +167,10 @@ TEST_F(CheckpointTest, LoadStepsAreReadOnAllRanksAsTheyWereWritten) {
   EXPECT_FALSE(step.contacts[1].friction.has_value());
   EXPECT_EQ(step.supports[0].moment, first.supports[0].moment);
   EXPECT_EQ(step.preloads[0].shortening, 0.1);
+  EXPECT_EQ(step.ties[0].resultant, first.ties[0].resultant);
+  EXPECT_EQ(step.ties[0].balance.coupling, "mortars");
+  EXPECT_EQ(step.holds[0].force, first.holds[0].force);
+  EXPECT_EQ(step.doubts, first.doubts);
   EXPECT_EQ(read.slip[1].node, 3);
   EXPECT_EQ(read.slip[0].slip, written.slip[0].slip);
   EXPECT_EQ(read.held[0].displacements, written.held[0].displacements);
@@ -235,7 +242,7 @@ TEST_F(CheckpointTest, WhatIsNoCheckpointIsRefused) {
   expectSays(refusalOf("\x89HDF\r\n\x1a\n and so on"), {"no checkpoint of Epafi"});
   expectSays(refusalOf(std::string(100000, 'x')), {"no checkpoint of Epafi"});
   expectSays(refusalOf("Epafi checkpoint 1\n"), {"another version"});
-  expectSays(refusalOf("Epafi checkpoint 3\norder middle\n"), {"another order"});
+  expectSays(refusalOf("Epafi checkpoint 4\norder middle\n"), {"another order"});
 }
 
 TEST_F(CheckpointTest, AFileCutOffAnywhereIsRefused) {

@@ -296,6 +296,24 @@ class Matrices(unittest.TestCase):
         with self.assertRaisesRegex(epafi.InputError, "entry 0, 0, 0 of the element matrices is nan"):
             epafi.Problem(2, components=1).add_elements(nodes, numpy.nan * matrices, coordinates)
 
+    def test_arrays_may_be_used_again_before_the_first_solve(self):
+        coordinates, nodes, matrices = membrane(2, 2)
+        k, rows, gap = summed(nodes, matrices, 9), numpy.eye(1, 9, 4), numpy.array([0.1])
+        for add in ("add_body", "add_elements"):
+            forces = []
+            for is_reused in (False, True):
+                problem, given = epafi.Problem(2, components=1), [k.copy(), nodes.copy(), matrices.copy(), coordinates.copy()]
+                getattr(problem, add)(*([given[0]] if add == "add_body" else given[1:3]), given[3], held={0: 0})
+                own, c = rows.copy(), gap.copy()
+                problem.set_contact(own, c)
+                if is_reused:
+                    for array in (given[0].data, *given[1:], own, c):
+                        array *= 3
+                forces.append(problem.solve(numpy.ones(9)).forces)
+            with self.subTest(add):
+                self.assertGreater(forces[0], 0)
+                numpy.testing.assert_array_equal(*forces)
+
     def test_what_does_not_fit_is_refused_in_a_sentence(self):
         coordinates, nodes, matrices = membrane(2, 2)
         k = summed(nodes, matrices, 9)
@@ -306,11 +324,23 @@ class Matrices(unittest.TestCase):
                 (lambda p: p.add_elements(nodes + 1, matrices, coordinates), "numbered from 0 to 8"),
                 (lambda p: p.add_elements(nodes, matrices[:3], coordinates), "element matrices have shape"),
                 (lambda p: p.add_elements(nodes, matrices, coordinates, parts=[0, 1]), "2 numbers of parts"),
+                (lambda p: p.add_elements(nodes, matrices, coordinates, parts=0), "4 elements cannot be cut into 0 parts"),
+                (lambda p: p.add_elements(nodes, matrices, coordinates, parts=5), "4 elements cannot be cut into 5 parts"),
+                (lambda p: p.add_elements(nodes + 0.7, matrices, coordinates), "float64, but must be integers"),
+                (lambda p: p.add_body(k, coordinates, held={0: 0, 9: 1}), "held unknowns are numbered from 0 to 8"),
+                (lambda p: p.add_elements(nodes, matrices, coordinates, held={0: 0, -1: 1}), "held unknowns are numbered"),
+                (lambda p: p.add_body(k, coordinates, held={0: 0, 1.5: 1}), "held unknowns are numbers of type float64"),
+                (lambda p: p.add_body(k[1:, 1:], coordinates, unknowns=range(1, 9), held={0: 1}), "0 is held, but has no row"),
+                (lambda p: p.add_body(1j * k, coordinates), "are complex"),
+                (lambda p: (p.add_body(k, coordinates, held={0: 0}), p.solve(numpy.full(9, 1j))), "are complex"),
                 (lambda p: p.joint(*2 * [(p.add_body(k, coordinates), [[0, 2]], nodes)]), "facet 0 belongs to no cell"),
                 (lambda p: p.joint(*2 * [(p.add_body(k, coordinates), [[0, 1, 2]], nodes)]), "facets have 3 nodes"),
                 (lambda p: p.joint(*2 * [(p.add_body(k, coordinates), [[0, 9]], nodes)]), "numbered from 0 to 8"),
                 (lambda p: p.joint(*2 * [(range(3), [[0, 1]], nodes)]), "not the unknowns of a body"),
-                (lambda p: p.set_contact(numpy.eye(2, 9), 0, 0.3, tangents=numpy.eye(1, 9), nodes=[2]), "different rows of"),
+                (lambda p: p.set_contact(numpy.eye(2, 9), 0), "9 columns, but there are 0 unknowns"),
+                (lambda p: (p.add_body(k, coordinates), p.set_ties(numpy.eye(2, 8))), "8 columns, but there are 9 unknowns"),
+                (lambda p: (p.add_body(k, coordinates),
+                            p.set_contact(numpy.eye(2, 9), 0, 0.3, tangents=numpy.eye(1, 9), nodes=[2])), "different rows of"),
                 (lambda p: (p.add_body(k, coordinates), p.solve([1.0])), "loads have shape"),
                 (lambda p: (p.add_body(k, coordinates, held={0: 0}), p.solve(numpy.ones(9)), p.set_contact(numpy.eye(9), 0)),
                  "solved already"),

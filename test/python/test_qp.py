@@ -74,6 +74,13 @@ class Programs(unittest.TestCase):
                       dict(equalities=([[1, 1]], [nan])), dict(preconditioner=[[1, 0], [0, nan]])):
             with self.subTest(wrong), self.assertRaises(ValueError):
                 epafi.solve_qp(numpy.eye(2), [1, 1], **wrong)
+        for hessian, what in ((numpy.triu(string(5)[0].toarray()), "not symmetric"), (scipy.sparse.tril(string(5)[0]), "not symmetric"),
+                              (1j * numpy.eye(5), "complex"), (scipy.sparse.linalg.aslinearoperator(1j * numpy.eye(5)), "complex")):
+            for matrices in ((hessian,), (numpy.eye(5), hessian)):
+                with self.subTest(what), self.assertRaisesRegex(epafi.InputError, what):
+                    epafi.solve_qp(matrices[0], string(5)[1], preconditioner=matrices[-1] if len(matrices) > 1 else None)
+        with self.assertRaisesRegex(epafi.InputError, "complex"):
+            epafi.solve_qp(numpy.eye(2), [1, 1j])
         for hessian, linear_term in (([[1, nan], [nan, 1]], [1, 1]), (numpy.eye(2), [1, nan])):
             with self.assertRaisesRegex(epafi.InputError, "entry .* is nan"):
                 epafi.solve_qp(hessian, linear_term)

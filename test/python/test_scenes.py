@@ -126,6 +126,25 @@ class Scenes(unittest.TestCase):
         thread.join()
         self.assertGreater(counted[0], 20)
 
+    def test_threads_that_solve_take_turns(self):
+        code = """
+import sys, threading, epafi
+def solve():
+    energies.extend(epafi.solve(sys.argv[1], set={"Bodies/left/Elements": [8, 8]}).energy for _ in range(5))
+energies, threads = [], [threading.Thread(target=solve) for _ in range(4)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+print(len(energies), len(set(energies)))"""
+        run = subprocess.run([sys.executable, "-c", code, SCENES / "coercive.xml"], capture_output=True, text=True, timeout=300)
+        self.assertEqual(run.stdout, "20 1\n", run.stderr)
+
+    def test_a_solve_may_call_for_another(self):
+        a = numpy.array([[2.0, -1.0], [-1.0, 2.0]])
+        result = epafi.solve_qp(lambda x: epafi.solve_qp(numpy.eye(2), a @ x, tolerance=1e-14).x, [1, 1], upper=0.5, tolerance=1e-8)
+        numpy.testing.assert_allclose(result.x, 0.5)
+
     def test_the_interrupt_key_ends_a_run_and_python_goes_on(self):
         code = """
 import json, sys, epafi

@@ -70,6 +70,24 @@ TEST(ParameterFileTest, NamesTheLineOfMalformedXml) {
   expectSays(refusalOfText("<ParameterList>\n\n<!-- open </ParameterList>"), {"a.xml, line 3"});
 }
 
+/// As Python's ElementTree writes letters beyond ASCII.
+TEST(ParameterFileTest, ReferencesAreTheLettersThatTheyName) {
+  for (const auto& [reference, letter] : {std::pair<std::string, std::string>{"&#252;", "ü"},
+                                          {"&#xFC;", "ü"},
+                                          {"&#8364;", "€"},
+                                          {"&#x20ac;", "€"},
+                                          {"&#x1F527;", "🔧"},
+                                          {"&#60;&lt;&#x3c;", "<<<"}}) {
+    const Teuchos::ParameterList list = parseParameters(
+        nested("<Parameter name=\"B" + reference + "gel\" type=\"string\" value=\"" + reference + "\"/>"),
+        "a.xml");
+    EXPECT_EQ(list.sublist("Outer").sublist("Inner").get<std::string>("B" + letter + "gel"), letter);
+  }
+  for (const std::string wrong : {"&#;", "&#xQ;", "&#252"})
+    expectSays(refusalOfText(nested("<Parameter name=\"" + wrong + "\" type=\"int\" value=\"1\"/>")),
+               {"a.xml", "malformed XML"});
+}
+
 TEST(ParameterFileTest, RefusesATextWithoutXml) {
   for (const std::string text : {"", " \n\t"})
     expectSays(refusalOfText(text), {"a.xml is empty", "<ParameterList>"});

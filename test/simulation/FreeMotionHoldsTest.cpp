@@ -136,6 +136,32 @@ TEST(FreeMotionHoldsTest, TheyStayThroughLoadSteps) {
   EXPECT_NEAR(run.result.steps[1].contacts[0].force, 3, 1e-6);
 }
 
+/// What pushes in one step has none of its doubts taken away by a later one without it.
+TEST(FreeMotionHoldsTest, WhatIsHeldInAStepBeforeTheLastIsTold) {
+  for (const int dimension : {2, 3}) {
+    scene::Scene scene = stack(dimension, 1, downwards(dimension));
+    scene.bodies[0].loads.push_back(test::weight({0.2, 0, 0}));
+    scene.holdsFreeMotions = true;
+    std::vector<scene::Step> steps(3);
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      steps[k].name = std::string(1, static_cast<char>('a' + k));
+      steps[k].loads[{0, 1}] = k == 1 ? 1 : 0;
+    }
+    const RunResult result = solveSteps(scene, steps, {}, Tpetra::getDefaultComm(), {}, {}).result;
+    EXPECT_EQ(result.status, RunStatus::converged) << result.reason;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      double sum = 0;
+      for (const HoldResult& hold : result.steps[k].holds)
+        sum += hold.force[0];
+      EXPECT_NEAR(sum, k == 1 ? -0.2 : 0, 1e-9);
+      EXPECT_EQ(result.steps[k].doubts.find("takes a force") != std::string::npos, k == 1);
+    }
+    EXPECT_NE(result.doubts.find("takes a force"), std::string::npos) << result.doubts;
+    EXPECT_NE(result.doubts.find("(in step \"b\")"), std::string::npos) << result.doubts;
+    EXPECT_TRUE(reportOf(result).sublist("Steps").sublist("b").isSublist("Holds"));
+  }
+}
+
 TEST(FreeMotionHoldsTest, WhatIsPulledAwayOrTipsIsRefusedAsBefore) {
   for (const Vector3& force : {Vector3{1.5, 0, -1}, Vector3{0, 0, 1}}) {
     scene::Scene scene = stack(3, 1, force);

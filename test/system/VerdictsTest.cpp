@@ -24,9 +24,10 @@ struct Outcome {
   double energy = 0, equilibrium = 0;
 };
 
-Outcome outcomeOf(const scene::Scene& scene, const std::string& algorithm = "auto") try {
+Outcome outcomeOf(const scene::Scene& scene, const std::string& algorithm = "auto",
+                  double tolerance = 1e-6) try {
   const auto decomposition = model::decompose(scene, Tpetra::getDefaultComm());
-  ContactSolver solver(Teuchos::ParameterList().set("Algorithm", algorithm));
+  ContactSolver solver(Teuchos::ParameterList().set("Algorithm", algorithm).set("Tolerance", tolerance));
   solver.setup(decomposition.problem, decomposition.data);
   const fetidp::ContactSolution solution = solver.solve(decomposition.data);
   return {solver.report().status == qp::Status::converged ? Verdict::solved : Verdict::stopped,
@@ -54,7 +55,7 @@ Vector3 vectorOf(const Eigen::Vector3d& v) {
   return {v[0], v[1], v[2]};
 }
 
-fem::SolidLoad pressure(const std::string& surface, double value) {
+fem::SolidLoad pressureOn(const std::string& surface, double value) {
   return {"pressure on " + surface, fem::SolidLoad::Kind::pressure, {}, surface, {}, {value, 0, 0}};
 }
 
@@ -79,7 +80,7 @@ TEST(VerdictsTest, WhatSlidesBetweenParallelPlanesHasNoSolutionWhateverItsAngle)
         scene.bodies[0].supports = {slide("bottom")};
         if (dimension == 3)
           scene.bodies[0].supports.push_back(slide("front"));
-        scene.bodies[0].loads = {pressure("right", -1e-3)};
+        scene.bodies[0].loads = {pressureOn("right", -1e-3)};
         const Eigen::Vector3d up = placement.turn.col(dimension - 1);
         scene.contacts = {
             onPlane("ceiling", 0, "top", vectorOf(placement.of({0, 0, 0}) + up), vectorOf(-up))};
@@ -103,8 +104,8 @@ TEST(VerdictsTest, ABodyWhoseLoadsCancelHidesNoOther) {
         scene.bodies.back().material.youngsModulus = 200 * unit;
       }
       scene.bodies[0].loads = {
-          pressure("left", unit)}; // against its own support: nothing along it but round-off
-      scene.bodies[1].loads = {pressure("top", unit)};
+          pressureOn("left", unit)}; // against its own support: nothing along it but round-off
+      scene.bodies[1].loads = {pressureOn("top", unit)};
       const Eigen::Vector3d up = placement.turn.col(1);
       scene.contacts = {onPlane("floor", 0, "bottom", vectorOf(placement.of({0, 0, 0})), vectorOf(up)),
                         between("joint", 0, "top", 1, "bottom")};
@@ -159,6 +160,28 @@ TEST(VerdictsTest, ForcesWithinTheToleranceHoldNothing) {
           scene.contacts[1].gap = -0.02; // now they squeeze it
           EXPECT_EQ(outcomeOf(scene, algorithm).verdict, Verdict::solved);
         }
+}
+
+/// Each node carries less than the tolerance of the whole.
+TEST(VerdictsTest, SmallForcesOfManyNodesHoldABodyWhateverTheTolerance) {
+  for (const int dimension : {2, 3})
+    for (const double tolerance : {1.0, 0.3, 0.1})
+      for (const std::string algorithm : {"auto", "MPRGP"}) {
+        scene::Scene scene;
+        const int n = dimension == 2 ? 32 : 8;
+        scene.bodies = {block("block",
+                              dimension == 2 ? mesh::rectangle(0, 1, 0, 1) : mesh::Box{{0, 0, 0}, {1, 1, 1}},
+                              {n, 4, dimension == 2 ? 0 : 4}, cutByMetis(2))};
+        scene.bodies[0].supports = {slide("left")};
+        if (dimension == 3)
+          scene.bodies[0].supports.push_back(slide("front"));
+        const Vector3 up = dimension == 2 ? Vector3{0, 1, 0} : Vector3{0, 0, 1};
+        scene.contacts = {onPlane("floor", 0, "bottom", {0, 0, 0}, up)};
+        EXPECT_EQ(outcomeOf(scene, algorithm, tolerance).verdict, Verdict::notUnique); // without a load
+        scene.bodies[0].loads = {weight({-up[0], -up[1], -up[2]})};
+        const Outcome outcome = outcomeOf(scene, algorithm, tolerance);
+        EXPECT_EQ(outcome.verdict, Verdict::solved) << tolerance << ' ' << algorithm << ' ' << outcome.text;
+      }
 }
 
 /// Two squares, one tied onto the other; the lower one's left side is held `apart` from that of the upper

@@ -8,7 +8,7 @@ import numpy
 
 from . import _epafi, parameters as _parameters
 from .progress import shown
-from .qp import finite, rows_of
+from .qp import reals, rows_of
 from .result import NotConverged
 
 
@@ -76,11 +76,18 @@ def _outwards(facets: Any, cells: Any, places: numpy.ndarray) -> numpy.ndarray:
 
 
 def _per_row(given: Any, count: int, what: str) -> numpy.ndarray:
-    """A number for each of so many rows, or one for all."""
-    values = numpy.ravel(numpy.asarray(given, dtype=float))
+    """A number for each of so many rows, or one for all; a copy."""
+    values = reals(numpy.ravel(given), what)
     if len(values) not in (1, count):
         raise _epafi.InputError(f"{what} have {len(values)} entries, but there are {count} rows")
-    return finite(numpy.broadcast_to(values, count), what)
+    return numpy.array(numpy.broadcast_to(values, count))
+
+
+def _integers(given: Any, what: str) -> numpy.ndarray:
+    values = numpy.asarray(given)
+    if values.size and values.dtype.kind not in "iu":
+        raise _epafi.InputError(f"{what} are numbers of type {values.dtype}, but must be integers")
+    return values.astype(numpy.int64)
 
 
 class Problem:
@@ -93,13 +100,15 @@ class Problem:
     def __init__(self, dimension: int, components: int | None = None):
         self.dimension, self.components = dimension, dimension if components is None else components
         self.nodes = 0
-        self._bodies: list[tuple] = []
+        self._bodies: list[tuple] = []  # name, unknowns of the matrices, and held values
         self._contact: tuple | None = None
         self._friction: tuple | None = None
         self._ties: tuple | None = None
         self._gaps = 3 * [numpy.zeros(0)]  # of contact, friction and ties
         self._points: list[numpy.ndarray] = []
-        self._problem: Any = None
+        self._problem = _epafi.Problem(self.dimension, self.components)
+        self._is_complete = False
+        self._failure: _epafi.Error | None = None  # of what made it complete
 
     @property
     def unknowns(self) -> int:
@@ -107,23 +116,40 @@ class Problem:
         return self.nodes * self.components
 
     def _require_unsolved(self) -> None:
-        if self._problem is not None:
+        if self._is_complete:
             raise _epafi.InputError("the problem is solved already: bodies, contact and ties come before the first solve")
 
-    def _places(self, coordinates: Any, held: Mapping[int, float] | None) -> tuple:
+    def _places(self, coordinates: Any) -> numpy.ndarray:
         self._require_unsolved()
-        places = finite(numpy.asarray(coordinates, dtype=float), "the coordinates")
+        places = numpy.array(reals(coordinates, "the coordinates"))
         if places.ndim != 2 or places.shape[1] != self.dimension:
             raise _epafi.InputError(f"coordinates have shape {places.shape}, but must have {self.dimension} columns")
-        first = self.unknowns
-        return places, self.nodes, {first + int(number): float(value) for number, value in (held or {}).items()}
+        return places
 
-    def _numbers(self, numbers: Any, places: numpy.ndarray) -> numpy.ndarray:
-        numbers, most = numpy.asarray(numbers, dtype=numpy.int64), len(places) * self.components
+    def _numbers(self, numbers: Any, places: numpy.ndarray, what: str = "unknowns") -> numpy.ndarray:
+        numbers, most = _integers(numbers, what), len(places) * self.components
         if numbers.size and not 0 <= numbers.min() <= numbers.max() < most:
-            raise _epafi.InputError(f"unknowns are numbered from 0 to {most - 1} in a body of {len(places)} nodes, not "
+            raise _epafi.InputError(f"{what} are numbered from 0 to {most - 1} in a body of {len(places)} nodes, not "
                                     f"{numbers.min()} to {numbers.max()}")
         return numbers + self.unknowns
+
+    def _supports(self, held: Mapping[int, float] | None, numbers: numpy.ndarray, places: numpy.ndarray) -> dict[int, float]:
+        """Values by numbers through all bodies, of unknowns that are among those of the matrices."""
+        held = held or {}
+        supported = self._numbers(list(held), places, "held unknowns")
+        has_row = numpy.zeros(len(places) * self.components, dtype=bool)
+        has_row[numbers - self.unknowns] = True
+        if (missing := numpy.flatnonzero(~has_row[supported - self.unknowns])).size:
+            raise _epafi.InputError(f"unknown {supported[missing[0]] - self.unknowns} is held, but has no row in the matrices of "
+                                    "the body")
+        return dict(zip(supported.tolist(), reals(list(held.values()), "held values").tolist()))
+
+    def _rows(self, matrix: Any) -> tuple:
+        """Copies of its arrays: the caller's own may be others by the first solve."""
+        self._require_unsolved()
+        if (columns := numpy.shape(matrix)[-1]) != self.unknowns:
+            raise _epafi.InputError(f"rows have {columns} columns, but there are {self.unknowns} unknowns of the bodies so far")
+        return tuple(numpy.array(values) for values in rows_of(matrix))
 
     def add_body(self, stiffness: Any, coordinates: Any, *, held: Mapping[int, float] | None = None, unknowns: Any = None,
                  name: str = "") -> range:
@@ -134,15 +160,14 @@ class Problem:
         held         values of unknowns that supports prescribe, by their numbers in the body; they have rows in K all the same
         unknowns     numbers in the body of the rows of K, if supports are eliminated from it
         """
-        places, first, held = self._places(coordinates, held)
+        places = self._places(coordinates)
         rows = rows_of(stiffness)
         numbers = self._numbers(numpy.arange(len(places) * self.components) if unknowns is None else unknowns, places)
         if len(numbers) != len(rows[0]) - 1:
             raise _epafi.InputError(f"the stiffness has {len(rows[0]) - 1} rows, but the body {len(numbers)} unknowns")
         if len(rows[1]) and not 0 <= rows[1].min() <= rows[1].max() < len(numbers):
             raise _epafi.InputError(f"the stiffness has {len(numbers)} rows, but an entry in column {rows[1].max()}")
-        self._bodies.append(("add", name, (numbers, rows, places, first, held)))
-        return self._added(places)
+        return self._added(self._problem.add, name, places, held, numbers, rows)
 
     def add_elements(self, unknowns: Any, stiffness: Any, coordinates: Any, *, parts: Any = 1,
                      held: Mapping[int, float] | None = None, name: str = "") -> range:
@@ -154,20 +179,27 @@ class Problem:
         parts        how many subdomains METIS cuts it into, or the number of the subdomain of each element
         held         as in `add_body`
         """
-        places, first, held = self._places(coordinates, held)
+        places = self._places(coordinates)
         numbers = self._numbers(unknowns, places)
-        matrices = finite(numpy.asarray(stiffness, dtype=float), "the element matrices")
+        matrices = reals(stiffness, "the element matrices")
         if matrices.shape != (*numbers.shape, numbers.shape[-1]):
             raise _epafi.InputError(f"element matrices have shape {matrices.shape}, but their unknowns {numbers.shape}")
-        if numpy.ndim(parts) == 0:
+        parts = _integers(parts, "parts")
+        if parts.ndim == 0:
+            if not 1 <= parts <= max(1, len(numbers)):
+                raise _epafi.InputError(f"{len(numbers)} elements cannot be cut into {parts} parts")
             nodes = (numbers[:, ::self.components] - self.unknowns) // self.components
             parts = _epafi.parts_of(nodes, len(places), int(parts), self.dimension)
         if len(parts) != len(numbers):
             raise _epafi.InputError(f"there are {len(parts)} numbers of parts, but {len(numbers)} elements")
-        self._bodies.append(("add_elements", name, (numbers, matrices, numpy.asarray(parts), places, first, held)))
-        return self._added(places)
+        return self._added(self._problem.add_elements, name, places, held, numbers, matrices, parts)
 
-    def _added(self, places: numpy.ndarray) -> range:
+    def _added(self, add: Callable, name: str, places: numpy.ndarray, held: Mapping[int, float] | None, numbers: numpy.ndarray,
+               *matrices: Any) -> range:
+        """Copies the matrices: the caller's arrays may be others by the first solve."""
+        supports = self._supports(held, numbers, places)
+        add(len(self._bodies), numbers, *matrices, places, self.nodes, supports)
+        self._bodies.append((name, numbers, supports))
         self._points.append(places)
         self.nodes += len(places)
         return range(self.unknowns - len(places) * self.components, self.unknowns)
@@ -175,7 +207,7 @@ class Problem:
     def _held(self) -> set[int]:
         """Unknowns that supports hold, eliminated or not."""
         free = numpy.zeros(self.unknowns, dtype=bool)
-        for _, _, (numbers, *_, held) in self._bodies:
+        for _, numbers, held in self._bodies:
             free[numbers] = True
             free[list(held)] = False
         return set(numpy.flatnonzero(~free).tolist())
@@ -216,8 +248,7 @@ class Problem:
         slips     s, of each row of T or one for all: what has slipped before
         nodes     with `tangents`: rows of B that have friction, if not all; friction and bound are theirs then
         """
-        self._require_unsolved()
-        matrix = rows_of(rows)
+        matrix = self._rows(rows)
         count = len(matrix[0]) - 1
         self._gaps[:2] = _per_row(gaps, count, "the gaps"), numpy.zeros(0)
         self._contact, self._friction = (False, matrix, self._gaps[0], self.unknowns), None
@@ -232,14 +263,13 @@ class Problem:
             raise _epafi.InputError(f"nodes with friction are different rows of contact from 0 to {count - 1}")
         of_nodes = [_per_row(0 if law is None else law, len(nodes), what).tolist()
                     for law, what in ((friction, "coefficients of friction"), (bound, "bounds of friction"))]
-        along = None if tangents is None else rows_of(tangents)
+        along = None if tangents is None else self._rows(tangents)
         self._gaps[1] = _per_row(slips, len(nodes) * (self.components - 1) if along is None else len(along[0]) - 1, "the slips")
         self._friction = (None if along is None else (along, self._gaps[1]), nodes.tolist(), *of_nodes, self.unknowns)
 
     def set_ties(self, rows: Any, gaps: Any = 0) -> None:
         """Eu = d: E, rows x unknowns of all bodies, and d, of each row or one for all; rows may depend on each other."""
-        self._require_unsolved()
-        matrix = rows_of(rows)
+        matrix = self._rows(rows)
         self._gaps[2] = _per_row(gaps, len(matrix[0]) - 1, "the gaps of ties")
         self._ties = (True, matrix, self._gaps[2], self.unknowns)
 
@@ -252,29 +282,32 @@ class Problem:
 
         Raises as `epafi.solve`; NotConverged has the Solution.
         """
-        loads = finite(numpy.asarray(loads, dtype=float), "the loads")
+        loads = reals(loads, "the loads")
         if loads.shape != (self.unknowns,):
             raise _epafi.InputError(f"loads have shape {loads.shape}, but there are {self.unknowns} unknowns")
         for kind, (given, what) in enumerate(((gaps, "the gaps"), (slips, "the slips"), (tie_gaps, "the gaps of ties"))):
             if given is not None:
                 self._gaps[kind] = _per_row(given, len(self._gaps[kind]), what)
-        if self._problem is None:
-            self._problem = self._made({"Tolerance": tolerance, **(parameters or {})})
         with shown(progress, None) as tell:
+            if not self._is_complete:
+                self._complete(_parameters.xml({"Tolerance": tolerance, **(parameters or {})}, _epafi.solver_schema(), "Solver"))
             solution = Solution(**self._problem.solve(loads, numpy.concatenate(self._gaps), tell))
         if check and not solution.converged:
             raise NotConverged(solution)
         return solution
 
-    def _made(self, parameters: Mapping[str, Any]) -> Any:
-        names = [body[1] or f"body {number}" for number, body in enumerate(self._bodies)]
-        problem = _epafi.Problem(self.dimension, self.components, names)
-        for number, (kind, _, arguments) in enumerate(self._bodies):
-            getattr(problem, kind)(number, *arguments)
-        for rows in (self._contact, self._ties):
-            if rows is not None:
-                problem.set_rows(*rows)
-        if self._friction is not None:
-            problem.set_friction(*self._friction)
-        problem.complete(_parameters.xml(parameters, _epafi.solver_schema(), "Solver"))
-        return problem
+    def _complete(self, parameters: str) -> None:
+        if self._failure is not None:
+            raise self._failure
+        self._problem.begin([name or f"body {number}" for number, (name, _, _) in enumerate(self._bodies)], parameters)
+        try:
+            for rows in (self._contact, self._ties):
+                if rows is not None:
+                    self._problem.set_rows(*rows)
+            if self._friction is not None:
+                self._problem.set_friction(*self._friction)
+            self._problem.complete()
+        except _epafi.Error as failure:
+            self._failure = failure
+            raise
+        self._is_complete = True

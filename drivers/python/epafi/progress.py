@@ -3,6 +3,7 @@
 import contextlib
 import math
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -29,9 +30,18 @@ class Line:
         self.width = len(text)
 
 
+_turn = threading.RLock()  # one thread at a time; what a solve calls may solve something itself
+
+
 @contextlib.contextmanager
 def shown(progress: bool | Callable | None, comm: Any) -> Iterator[Callable | None]:
-    """What a solve is to call; clears the line after it."""
+    """What a solve is to call, once those of other threads have ended; clears the line after it."""
+    with _turn, _line(progress, comm) as tell:
+        yield tell
+
+
+@contextlib.contextmanager
+def _line(progress: bool | Callable | None, comm: Any) -> Iterator[Callable | None]:
     if callable(progress) or progress is False:
         yield progress or None
         return

@@ -39,15 +39,22 @@ def finite(values: Any, what: str) -> Any:
     return values
 
 
+def reals(given: Any, what: str) -> numpy.ndarray:
+    """As an array of doubles. Raises InputError where numbers are complex or not finite."""
+    if numpy.iscomplexobj(given):
+        raise _epafi.InputError(f"{what}: the numbers are complex, but must be real")
+    return finite(numpy.asarray(given, dtype=float), what)
+
+
 def rows_of(matrix: Any) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]:
-    """indptr, indices and data of a SciPy matrix, or of a dense array; all numbers are finite."""
+    """indptr, indices and data of a SciPy matrix, or of a dense array; all numbers are real and finite."""
     if hasattr(matrix, "tocsr"):
         matrix = matrix.tocsr()
         if not matrix.has_canonical_format:
             matrix = matrix.copy()
             matrix.sum_duplicates()
-        return matrix.indptr, matrix.indices, finite(matrix.data, "a matrix's data")
-    matrix = finite(numpy.atleast_2d(numpy.asarray(matrix, dtype=float)), "a matrix")
+        return matrix.indptr, matrix.indices, reals(matrix.data, "a matrix's data")
+    matrix = numpy.atleast_2d(reals(matrix, "a matrix"))
     row, column = numpy.nonzero(matrix)
     return numpy.searchsorted(row, numpy.arange(len(matrix) + 1)), column, matrix[row, column]
 
@@ -55,10 +62,20 @@ def rows_of(matrix: Any) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]:
 def _operator(given: Any, size: int) -> Any:
     if given is None:
         return None
+    if is_sparse := hasattr(given, "tocsr"):
+        given = given.tocsr()
+    elif not hasattr(given, "matvec") and not callable(given):
+        given = numpy.atleast_2d(given)
     if (shape := getattr(given, "shape", (size, size))) != (size, size):
         raise _epafi.InputError(f"an operator is {shape[0]} x {shape[-1]}, but the linear term has {size} entries")
-    if hasattr(given, "tocsr") or not (hasattr(given, "matvec") or callable(given)):
-        return rows_of(given)
+    if is_sparse or isinstance(given, numpy.ndarray):
+        rows = rows_of(given)
+        is_within = len(rows[1]) > 0 and 0 <= rows[1].min() <= rows[1].max() < size
+        if is_within and abs(given - given.T).max() > 1e-6 * abs(given).max():
+            raise _epafi.InputError("a matrix is not symmetric; both triangles must be stored, equal to round-off")
+        return rows
+    if numpy.iscomplexobj(given):
+        raise _epafi.InputError("an operator: the numbers are complex, but must be real")
     return given.matvec if hasattr(given, "matvec") else given
 
 
@@ -68,7 +85,8 @@ def solve_qp(hessian: Any, linear_term: Any, *, lower: Any = None, upper: Any = 
              progress: bool | Callable | None = None, check: bool = True) -> QpResult:
     """Minimises x'Ax/2 - b'x within bounds and discs, subject to Bx = c. On this rank alone.
 
-    hessian         A, n x n, symmetric positive semidefinite: a SciPy matrix, an array, a LinearOperator, or x -> Ax
+    hessian         A, n x n, symmetric positive semidefinite: a SciPy matrix or an array with both triangles, a LinearOperator,
+                    or x -> Ax
     linear_term     b, n
     lower, upper    n, or one number for all; infinities for "no bound"
     discs           (pairs m x 2, radii m) or (pairs, radii, centres m x 2): two entries of x each, |x - centre| <= radius
@@ -81,10 +99,12 @@ def solve_qp(hessian: Any, linear_term: Any, *, lower: Any = None, upper: Any = 
     Raises SolvabilityError where there is no solution, NotConverged (with `result`) where the tolerance is not reached, unless
     `check` is False; InputError for what does not fit.
     """
-    b = numpy.asarray(linear_term, dtype=float).ravel()
+    b = reals(linear_term, "the linear term").ravel()
 
     def bound(given: Any) -> Any:
-        return None if given is None else numpy.broadcast_to(numpy.asarray(given, dtype=float), b.shape)
+        if given is not None and numpy.size(given) not in (1, len(b)):
+            raise _epafi.InputError(f"bounds have {numpy.size(given)} entries, but the linear term has {len(b)}")
+        return None if given is None else numpy.broadcast_to(numpy.ravel(numpy.asarray(given, dtype=float)), b.shape)
 
     flat = []
     if discs is not None:

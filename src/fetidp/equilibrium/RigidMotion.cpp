@@ -109,18 +109,31 @@ Closing closing(const DecomposedProblem& problem, const Rows& rows, const std::s
           spectrum.vectors.leftCols(numOpen)};
 }
 
-/// Drops rows whose force is none: those that are none beside the others, and those that close less than
-/// their gap, where one of the two is 0 in a solution. Returns whether there are any. Collective.
+constexpr double clearForce = 1e-3; ///< a force that is more than this beside the largest one is no noise
+
+/// Collective.
+double largestForce(const DecomposedProblem& problem, const Rows& rows, const Vector& lambda) {
+  const auto force = lambda.getData();
+  double largest = 0;
+  for (const auto& [row, vector] : rows)
+    largest = std::max(largest, isTied(problem, row) ? 0.0 : force[row]);
+  return maxOverRanks(*problem.comm, largest);
+}
+
+/// Drops rows whose force is none: those that are none beside the others, however loose the tolerance, and
+/// those that close less than their gap, where one of the two is 0 in a solution. Returns whether there are
+/// any. Collective.
 bool dropIdleRows(const DecomposedProblem& problem, const Rows& rows, const Vector& lambda,
                   const Vector& slack, const RestCheck& check, const Eigen::VectorXd& alpha,
                   std::set<int>& holding) {
   const auto force = lambda.getData(), gap = slack.getData();
-  const double closed = closedUpTo * slack.normInf();
+  const double closed = closedUpTo * slack.normInf(),
+               least = std::min(check.leastForce, clearForce * largestForce(problem, rows, lambda));
   const auto dropped = std::erase_if(holding, [&](int row) {
     if (isTied(problem, row))
       return false;
     const double room = gap[row] - rows.at(row).dot(alpha);
-    return force[row] <= check.leastForce || (room > closed && check.flexibility * force[row] <= room);
+    return force[row] <= least || (room > closed && check.flexibility * force[row] <= room);
   });
   return holdsAnywhere(*problem.comm, dropped > 0);
 }
@@ -165,15 +178,12 @@ Eigen::MatrixXd acrossLoads(const DecomposedProblem& problem, const ProblemData&
 void refuseUnpressed(const DecomposedProblem& problem, const ProblemData& data, const Rows& rows,
                      const ProblemScales& scales, const Vector& lambda, const Vector& slack,
                      const RestCheck& check, const Eigen::VectorXd& alpha, double length) {
-  constexpr double clear = 1e-3; // beside the largest force
   const auto force = lambda.getData();
-  double largest = 0;
-  for (const auto& [row, vector] : rows)
-    largest = std::max(largest, isTied(problem, row) ? 0.0 : force[row]);
-  largest = std::max(clear * maxOverRanks(*problem.comm, largest), check.leastForce / clear);
+  const double least =
+      std::max(clearForce * largestForce(problem, rows, lambda), check.leastForce / clearForce);
   std::set<int> pressing;
   for (const auto& [row, vector] : rows)
-    if (isTied(problem, row) || force[row] > largest)
+    if (isTied(problem, row) || force[row] > least)
       pressing.insert(row);
   const Eigen::MatrixXd open =
       acrossLoads(problem, data, scales, closing(problem, rows, pressing, slack).open);
