@@ -8,6 +8,7 @@
 #include <Teuchos_Array.hpp>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 namespace epafi::assembly {
@@ -62,7 +63,8 @@ void Held::read(const std::string& value, ParameterList& support) const {
       Vector3 along{};
       along[d] = 1;
       support.set("Cylinder", lineAlong(along, face->kind == "sphere" ? face->onAxis : face->centre));
-    } else if (word.find_first_not_of("xyz") == std::string::npos) {
+    } else if (word.find_first_not_of("xyz") == std::string::npos &&
+               std::set<char>(word.begin(), word.end()).size() == word.size()) {
       for (const char letter : word)
         held.emplace_back(1, static_cast<char>(letter - 'x' + 'X'));
       if (turns)

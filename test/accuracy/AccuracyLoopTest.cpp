@@ -103,12 +103,11 @@ TEST(AccuracyLoopTest, ReachesATargetOfAQuantity) {
         const double error = 1 - last.quantity->value; // of 1
         EXPECT_LE(error, target);
         EXPECT_GE(last.quantity->discretisation, (1 - 1e-9) * error);
-        EXPECT_LE(last.quantity->discretisation, 1.5 * error);
+        EXPECT_LE(last.quantity->discretisation, 5 * error);
         EXPECT_NEAR(last.relative(), last.quantity->discretisation / last.quantity->value, 1e-12);
       }
 }
 
-/// The estimate is a tenth of the error: the change tells.
 /// Such as a displacement that supports prescribe: no element adds to its bar.
 TEST(AccuracyLoopTest, AQuantityWithoutErrorNeedsNoOtherMesh) {
   Patches problem;
@@ -118,6 +117,7 @@ TEST(AccuracyLoopTest, AQuantityWithoutErrorNeedsNoOtherMesh) {
   EXPECT_TRUE(result.isMet && result.meshes.size() == 1U) << result.reason;
 }
 
+/// The estimate is a tenth of the error: the change tells.
 TEST(AccuracyLoopTest, ABarIsNoSmallerThanTheLastChangeLetsExpect) {
   Patches problem;
   problem.hasQuantity = true;
@@ -126,7 +126,21 @@ TEST(AccuracyLoopTest, ABarIsNoSmallerThanTheLastChangeLetsExpect) {
   const LoopResult result = refineToTarget(problem, {.target = 0.004, .maxMeshes = 2, .order = 1});
   ASSERT_EQ(result.meshes.size(), 2U);
   const double error = 1 - result.meshes.back().quantity->value;
-  EXPECT_NEAR(result.meshes.back().quantity->discretisation, error, 1e-9);
+  EXPECT_GE(result.meshes.back().quantity->discretisation, error);
+  EXPECT_LE(result.meshes.back().quantity->discretisation, 2 * error);
+}
+
+/// On its way to 1 a number comes nearer by 0.85 from mesh to mesh, and each bar is a third of the last one.
+TEST(AccuracyLoopTest, ABarIsNoSmallerThanChangesThatGoOneWayLetExpect) {
+  for (const int order : {0, 1, 2}) {
+    test::Drift problem(0.85);
+    const LoopResult result = refineToTarget(problem, {.target = 0.2, .order = order});
+    EXPECT_TRUE(result.isMet) << result.reason;
+    const MeshResult::Quantity& found = *result.meshes.back().quantity;
+    EXPECT_GT(result.meshes.size(), 3U);
+    EXPECT_EQ((result.meshes.end() - 2)->order, result.meshes.back().order);
+    EXPECT_GE(found.discretisation, (1 - 1e-9) * (found.value - 1));
+  }
 }
 
 /// One per cent less than the last mesh took, and one more.

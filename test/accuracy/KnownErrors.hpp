@@ -92,6 +92,21 @@ private:
   std::vector<double> weights_, sizes_;
 };
 
+/// A number that nears 1 by a factor from mesh to mesh, with bars that are a third of the last one.
+class Drift : public Patches {
+public:
+  explicit Drift(double factor) : factor_(factor) {}
+  MeshResult solve(int order) override {
+    const auto number = static_cast<double>(errors.size());
+    MeshResult result = Patches::solve(order);
+    result.quantity = {1 + std::pow(factor_, number), std::pow(3.0, -number), 0};
+    return result;
+  }
+
+private:
+  double factor_;
+};
+
 /// A number that looks at one element, and grows by a power of its size to a limit of its own, or without
 /// one.
 class Peak : public Patches {

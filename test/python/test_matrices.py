@@ -115,6 +115,8 @@ class Matrices(unittest.TestCase):
         double = problem.solve(2 * loads)
         numpy.testing.assert_allclose(double.u, 2 * first.u, atol=1e-8)
         self.assertEqual(double.setup_seconds, first.setup_seconds)
+        with self.assertRaisesRegex(epafi.InputError, "those of the first solve"):
+            problem.solve(loads, tolerance=1e-3)
         moved = problem.solve(loads, gaps=numpy.full(9, 0.5))  # the cloth hangs lower by the gap
         self.assertAlmostEqual((moved.u - first.u)[81:].mean(), -0.5, delta=1e-8)
 

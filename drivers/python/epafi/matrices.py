@@ -273,12 +273,12 @@ class Problem:
         self._gaps[2] = _per_row(gaps, len(matrix[0]) - 1, "the gaps of ties")
         self._ties = (True, matrix, self._gaps[2], self.unknowns)
 
-    def solve(self, loads: Any, *, gaps: Any = None, slips: Any = None, tie_gaps: Any = None, tolerance: float = 1e-6,
+    def solve(self, loads: Any, *, gaps: Any = None, slips: Any = None, tie_gaps: Any = None, tolerance: float | None = None,
               parameters: Mapping[str, Any] | None = None, progress: bool | Callable | None = None,
               check: bool = True) -> Solution:
         """Solves for loads (of all unknowns) and, if given, new gaps of contact and ties, and slips. Later calls need no new
-        factors, and start from the last solution; tolerance and parameters (those of `Solver` in docs/parameters.md) are the
-        first call's.
+        factors, and start from the last solution; tolerance (1e-6) and parameters (those of `Solver` in docs/parameters.md) are
+        the first call's.
 
         Raises as `epafi.solve`; NotConverged has the Solution.
         """
@@ -289,8 +289,12 @@ class Problem:
             if given is not None:
                 self._gaps[kind] = _per_row(given, len(self._gaps[kind]), what)
         with shown(progress, None) as tell:
+            asked = {**({} if tolerance is None else {"Tolerance": tolerance}), **(parameters or {})}
             if not self._is_complete:
-                self._complete(_parameters.xml({"Tolerance": tolerance, **(parameters or {})}, _epafi.solver_schema(), "Solver"))
+                self._complete(_parameters.xml({"Tolerance": 1e-6, **asked}, _epafi.solver_schema(), "Solver"))
+                self._asked = asked
+            elif asked and asked != self._asked:
+                raise _epafi.InputError("tolerance and parameters are those of the first solve; make another Problem for others")
             solution = Solution(**self._problem.solve(loads, numpy.concatenate(self._gaps), tell))
         if check and not solution.converged:
             raise NotConverged(solution)
