@@ -26,7 +26,7 @@ namespace {
 /// depends on α alone, little on elements: 0.6 at a crack, 0.5 at a re-entrant corner. The closer to it what is
 /// seen comes, the more is missing.
 double withUnresolved(double seen, double quadratic) {
-  constexpr double missing = 4.5, most = 0.6;
+  constexpr double missing = 4.5, most = 0.55;
   if (!(quadratic > 0) || !(seen > 0))
     return seen;
   const double share = std::sqrt(seen / quadratic),

@@ -1,5 +1,6 @@
 #include "epafi/accuracy/PatchFlux.hpp"
 
+#include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/mesh/ShapeFunctions.hpp"
@@ -71,13 +72,19 @@ Eigen::MatrixXd fitted(const Monomials& monomials, const Eigen::Ref<const Eigen:
       matrix(j, i) = matrix(i, j) = sums[k];
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   matrix = (scale.asDiagonal() * matrix * scale.asDiagonal()).eval();
-  const auto factor = direct::choleskyFactor(matrix);
-  if (!factor || factor->diagonal().minCoeff() * factor->diagonal().minCoeff() < least)
+  Eigen::MatrixXd polynomial =
+      scale.asDiagonal() * sums.segment(numMoments(n), n * numFluxes).reshaped(n, numFluxes);
+  auto factor = direct::choleskyFactor(matrix);
+  if (!factor || factor->diagonal().minCoeff() * factor->diagonal().minCoeff() < least) {
     for (Eigen::Index k = 0; k < n; ++k)
       matrix(k, k) += monomials.isBent(k) ? least : 0;
-  const Eigen::MatrixXd right =
-      scale.asDiagonal() * sums.segment(numMoments(n), n * numFluxes).reshaped(n, numFluxes);
-  return scale.asDiagonal() * direct::solvedSymmetric(matrix, right);
+    factor = direct::choleskyFactor(matrix);
+  }
+  if (!factor)
+    throw Error("a patch of elements has too few points for a linear flux");
+  factor->triangularView<Eigen::Lower>().solveInPlace(polynomial);
+  factor->triangularView<Eigen::Lower>().transpose().solveInPlace(polynomial);
+  return scale.asDiagonal() * polynomial;
 }
 
 } // namespace

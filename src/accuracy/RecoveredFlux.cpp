@@ -126,14 +126,16 @@ std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies, const 
       const int patch = patches[s].ofSlot.empty() ? -1 : patches[s].ofSlot[slot];
       return patch < 0 ? nullptr : patches[s].sums.col(patch).data();
     });
-  for (std::size_t s = 0; s < fluxes.size(); ++s) {
-    if (patches[s].ofSlot.empty())
-      for (Eigen::Index slot = 0; slot < fluxes[s].values.cols(); ++slot)
-        fluxes[s].values.col(slot) *= 1 / fluxes[s].values(numFluxes, slot);
-    else
-      fitPatches(bodies[problem.subdomains[s].body], problem.subdomains[s], displacement[s], patches[s],
-                 fluxes[s]);
-  }
+  collectively(*problem.comm, [&] {
+    for (std::size_t s = 0; s < fluxes.size(); ++s) {
+      if (patches[s].ofSlot.empty())
+        for (Eigen::Index slot = 0; slot < fluxes[s].values.cols(); ++slot)
+          fluxes[s].values.col(slot) *= 1 / fluxes[s].values(numFluxes, slot);
+      else
+        fitPatches(bodies[problem.subdomains[s].body], problem.subdomains[s], displacement[s], patches[s],
+                   fluxes[s]);
+    }
+  });
   return fluxes;
 }
 

@@ -63,9 +63,9 @@ double effectivityOf(scene::Scene scene) {
                                runs[0]->decomposition, runs[0]->solution.displacement)
             .energy,
         2));
-  const double ratio = distances[1] / distances[0] - 1, error = std::sqrt(distances[0] / (1 - ratio));
-  EXPECT_GT(ratio, 0.1); // of a smooth solution 1/16
-  EXPECT_LT(ratio, 0.6);
+  const double decay = distances[1] / distances[0] - 1, error = std::sqrt(distances[0] / (1 - decay));
+  EXPECT_GT(decay, 0.1); // of a smooth solution 1/16
+  EXPECT_LT(decay, 0.6);
   return accuracy::ErrorEstimator(scenes[0], runs[0]->decomposition)(runs[0]->solution.displacement)
              .discretisation /
          error;
@@ -75,7 +75,7 @@ TEST(EffectivityTest, OfOrderTwoIsNearOneWhereStressesAreInfinite) {
   for (const scene::Scene& scene : {clampedBlock(false), clampedBlock(true), punchOnBlock()}) {
     const double effectivity = effectivityOf(scene);
     EXPECT_GT(effectivity, 0.9) << scene.bodies[0].mesh.elements[2] << ' ' << scene.bodies.size();
-    EXPECT_LT(effectivity, 1.2) << scene.bodies[0].mesh.elements[2] << ' ' << scene.bodies.size();
+    EXPECT_LT(effectivity, 1.3) << scene.bodies[0].mesh.elements[2] << ' ' << scene.bodies.size();
   }
 }
 
