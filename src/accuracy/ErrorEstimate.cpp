@@ -37,7 +37,7 @@ double withUnresolved(double seen, double quadratic) {
 /// η² of each element of a subdomain; returns ‖u_h‖² there.
 double estimateElements(const BodyElements& body, const decomposition::Subdomain& subdomain,
                         const SubdomainFlux& flux, const Eigen::VectorXd& displacement,
-                        std::vector<double>& estimates) {
+                        std::vector<double>& estimates, std::vector<double>& seen) {
   const std::span<const int> slots = flux.cornerSlots();
   const std::size_t perElement = flux.elements.numbering->nodesPerElement();
   Eigen::MatrixXd nodal(flux.values.rows() - 1, perElement);
@@ -49,7 +49,7 @@ double estimateElements(const BodyElements& body, const decomposition::Subdomain
     const fem::FluxEnergies energies = fem::fluxEnergies(
         body.typeOf(element), element.points, body.physics(), body.materialOf(element.region),
         element.displacements, nodal.leftCols(corners), element.state);
-    estimates[element.number] = energies.difference;
+    estimates[element.number] = seen[element.number] = energies.difference;
     if (body.order() == 2)
       estimates[element.number] = withUnresolved(
           energies.difference, fem::quadraticEnergy(body.typeOf(element), element.points, body.physics(),
@@ -62,7 +62,8 @@ double estimateElements(const BodyElements& body, const decomposition::Subdomain
 
 /// The same on a structured mesh.
 double estimateCongruentElements(const BodyElements& body, const SubdomainFlux& flux,
-                                 const Eigen::VectorXd& displacement, std::vector<double>& estimates) {
+                                 const Eigen::VectorXd& displacement, std::vector<double>& estimates,
+                                 std::vector<double>& seen) {
   const std::span<const int> slots = flux.cornerSlots();
   const Eigen::Index numFluxes = flux.values.rows() - 1;
   const Eigen::Index perElement = flux.elements.numbering->nodesPerElement();
@@ -81,9 +82,11 @@ double estimateCongruentElements(const BodyElements& body, const SubdomainFlux& 
     Eigen::VectorXd quadratic;
     if (body.order() == 2)
       quadratic = body.congruentFluxes(region)->quadraticEnergies(u);
-    for (std::size_t k = 0; k < which.size(); ++k)
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      seen[which[k]] = differences[k];
       estimates[which[k]] =
           quadratic.size() == 0 ? differences[k] : withUnresolved(differences[k], quadratic[k]);
+    }
     energy += body.congruentFluxes(region)->energy(u);
   }
   return energy;
@@ -99,12 +102,13 @@ ErrorEstimate ErrorEstimator::operator()(std::span<const Eigen::VectorXd> displa
   for (std::size_t s = 0; s < fluxes.size(); ++s) {
     const SubdomainFlux& flux = fluxes[s];
     const BodyElements& body = bodies_[problem.subdomains[s].body];
-    std::vector<double> estimates(flux.elements.elements.size());
+    std::vector<double> estimates(flux.elements.elements.size()), seen(estimates);
     sums[1].add(body.congruentFluxes(0) != nullptr
-                    ? estimateCongruentElements(body, flux, displacement[s], estimates)
-                    : estimateElements(body, problem.subdomains[s], flux, displacement[s], estimates));
+                    ? estimateCongruentElements(body, flux, displacement[s], estimates, seen)
+                    : estimateElements(body, problem.subdomains[s], flux, displacement[s], estimates, seen));
     sums[0].add(std::accumulate(estimates.begin(), estimates.end(), 0.0));
     estimate.elements.push_back(std::move(estimates));
+    estimate.seen.push_back(std::move(seen));
   }
   sumOverRanks(*problem.comm, sums);
   estimate.discretisation = std::sqrt(sums[0].value());

@@ -20,6 +20,8 @@ struct ErrorEstimate {
   double energyNorm = 0;
   /// η² of each element, in the order of Partition::elementsOf, of each of this rank's subdomains.
   std::vector<std::vector<double>> elements;
+  std::vector<std::vector<double>>
+      seen; ///< the same without what elements do not resolve: a form of second degree
 
   /// η/(‖u_h‖² + η²)^½; 0 without any energy.
   [[nodiscard]] double relative() const;
