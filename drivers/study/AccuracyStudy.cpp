@@ -56,8 +56,8 @@ bool studyAccuracy(const std::filesystem::path& directory, bool quick, const RCP
   Table effectivity = effectivityTable();
   for (Case& one : expandCases(caseText("accuracy"), "effectivity", quick)) {
     tell(*comm, "effectivity: " + one.name);
-    append(measureEffectivity(one.name, static_cast<int>(one.list.get<double>("Refinements")),
-                              one.list.get("Mesh Size", 1.0), sceneDirectory(), comm),
+    append(measureEffectivity(one.name, one.list.get("Reference", 0.0), one.list.get("Mesh Size", 1.0),
+                              sceneDirectory(), comm),
            effectivity);
   }
   writeFiles(directory, {{"accuracy_effectivity.csv", effectivity.csv()}}, *comm);

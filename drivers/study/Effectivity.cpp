@@ -3,38 +3,60 @@
 #include "AccuracyReference.hpp"
 
 #include "epafi/accuracy/Refinement.hpp"
+#include "epafi/base/Parameters.hpp"
 #include "epafi/scene/ParameterFile.hpp"
 #include "epafi/scene/SceneReader.hpp"
+#include "epafi/simulation/AccurateRun.hpp"
 
 #include <cmath>
 #include <utility>
 
 namespace epafi::drivers {
 
-std::vector<Row> measureEffectivity(const std::string& name, int refinements, double meshSize,
+namespace {
+
+/// The last mesh of a run to a target.
+simulation::SceneRun finest(const scene::Scene& scene, const Teuchos::ParameterList& given, double target,
+                            const RCP<const Comm>& comm) {
+  const Teuchos::ParameterList complete = validated(given, simulation::driverSchema(), scene.title);
+  simulation::AccuracyParameters accuracy =
+      simulation::AccuracyParameters::from(complete.sublist("Accuracy"));
+  accuracy.target = target;
+  accuracy.order = 2;
+  return simulation::solveToTarget(scene, complete.sublist("Solver"), accuracy, comm, nullptr, {}).run;
+}
+
+} // namespace
+
+std::vector<Row> measureEffectivity(const std::string& name, double target, double meshSize,
                                     const std::filesystem::path& scenes, const RCP<const Comm>& comm) {
   const std::string file = (scenes / (name + ".xml")).string();
-  scene::Scene scene = scene::readScene(scene::readParameterFile(file, *comm), file);
+  const Teuchos::ParameterList given = scene::readParameterFile(file, *comm);
+  scene::Scene scene = scene::readScene(given, file);
   for (scene::Body& body : scene.bodies)
     body.mesh.sizeFactor *= meshSize;
+  const int levels = target > 0 ? 1 : 2;
   std::vector<simulation::SceneRun> runs;
-  runs.reserve(static_cast<std::size_t>(refinements) + 1);
-  for (int level = 0; level <= refinements; ++level) {
+  runs.reserve(static_cast<std::size_t>(levels) + 1);
+  for (int level = 0; level < (target > 0 ? 1 : 3); ++level) {
     runs.push_back(solveTightly(scene, level > 0 ? &runs.back() : nullptr, comm));
-    scene = accuracy::refined(std::move(scene));
+    if (target == 0)
+      scene = accuracy::refined(std::move(scene));
   }
+  if (target > 0)
+    runs.push_back(finest(scene, given, target, comm));
   const simulation::SceneRun& reference = runs.back();
   std::vector<double> distances; // from coarse to fine, without the reference itself
-  for (int level = 0; level < refinements; ++level)
+  for (int level = 0; level < levels; ++level)
     distances.push_back(accuracy::errorAgainst(reference.scene, *reference.decomposition,
                                                reference.solution.displacement, *runs[level].decomposition,
                                                runs[level].solution.displacement)
                             .energy);
-  const double own = refinements > 1
-                         ? referenceError(distances[distances.size() - 1], distances[distances.size() - 2])
-                         : distances.back() / std::sqrt(3.0); // as errors of order h are
+  const double own = target > 0
+                         ? reference.error->discretisation
+                         : referenceError(distances[distances.size() - 1], distances[distances.size() - 2]);
   std::vector<Row> rows;
-  for (int level = 0; level < refinements; ++level) {
+  for (int level = 0; level < levels; ++level) {
     const simulation::SceneRun& run = runs[level];
     const double norm = reference.error->energyNorm, estimated = run.error->discretisation / norm,
                  error = std::hypot(distances[level], own) / norm;

@@ -11,12 +11,13 @@ namespace epafi::drivers {
 /// contained in the true one.
 Table effectivityTable();
 
-/// Of the mesh of scenes/name.xml and, with a reference that is refined twice, of the mesh refined once. What
-/// is left of the true error by the reference's own is added by extrapolation (AccuracyReference.hpp).
-/// \param refinements  of the reference; with 1 its own error is that of order h
-/// \param meshSize     factor on the sizes that a geometry asks for
+/// Of the mesh of scenes/name.xml and of that refined once, beside that refined twice, whose own error is
+/// added by extrapolation (AccuracyReference.hpp). Scenes that are too large for that stand beside the last
+/// mesh of a run to a target, whose own error is added as the run estimates it.
+/// \param target    of such a run; 0: refined twice
+/// \param meshSize  factor on the sizes that a geometry asks for
 /// Collective. \throws InputError if the scene cannot be read, Error if an iteration does not converge.
-std::vector<Row> measureEffectivity(const std::string& name, int refinements, double meshSize,
+std::vector<Row> measureEffectivity(const std::string& name, double target, double meshSize,
                                     const std::filesystem::path& scenes, const RCP<const Comm>& comm);
 
 /// To read.

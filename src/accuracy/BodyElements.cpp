@@ -23,12 +23,15 @@ std::vector<fem::Material> materialsOf(const scene::Body& body) {
 BodyElements::BodyElements(const scene::Body& body, const model::BodyLayout& layout)
     : layout_(layout), physics_(body.physics), materials_(materialsOf(body)),
       shape_(fem::sharedShape(body, *layout.mesh)),
-      hasState_(fem::isHeated(body) || !body.stiffnessFactors.empty()),
+      hasState_(fem::isHeated(body) || !body.stiffnessFactors.empty()), solid_(body, *layout.mesh),
       model_(materials_.size() > 1 || hasState_ ? model::makeModel(body, *layout.mesh) : nullptr),
       numberings_(maxNumberings, maxNumbers) {
   if (!shape_.empty() && !hasState_)
     for (const fem::Material& material : materials_)
       congruent_.emplace_back(cellType(), shape_, physics_, material);
+  for (const fem::SolidLoad& load : body.loads)
+    if (load.kind == fem::SolidLoad::Kind::body || load.kind == fem::SolidLoad::Kind::rotation)
+      forces_.emplace_back(solid_, "load '" + load.name + "'", load.where, load.box, true);
 }
 
 SubdomainElements BodyElements::elementsOf(const decomposition::Subdomain& subdomain) {
@@ -46,6 +49,18 @@ SubdomainElements BodyElements::elementsOf(const decomposition::Subdomain& subdo
     model_->regions(result.elements, result.regions);
   }
   return result;
+}
+
+std::vector<GlobalOrdinal> BodyElements::smoothParts(const SubdomainElements& elements) const {
+  if (forces_.empty())
+    return elements.regions;
+  std::vector<GlobalOrdinal> parts(elements.elements.size());
+  for (std::size_t force = 0; force < forces_.size(); ++force)
+    forces_[force].forEachIn(solid_, elements.elements,
+                             [&](std::size_t e) { parts[e] = static_cast<GlobalOrdinal>(force) + 1; });
+  for (std::size_t e = 0; e < parts.size(); ++e)
+    parts[e] = parts[e] * numRegions() + elements.regionOf(e);
+  return parts;
 }
 
 std::vector<std::size_t> BodyElements::inRegion(const SubdomainElements& elements, GlobalOrdinal region) {

@@ -7,6 +7,8 @@
 #include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
 #include "epafi/fem/RecentlyUsed.hpp"
+#include "epafi/fem/SolidBody.hpp"
+#include "epafi/fem/SolidDomains.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/model/Decompose.hpp"
 
@@ -55,6 +57,7 @@ public:
   [[nodiscard]] fem::Physics physics() const { return physics_; }
   /// Of the largest elements.
   [[nodiscard]] mesh::CellType cellType() const { return layout_.mesh->cellType(); }
+  [[nodiscard]] int order() const { return mesh::orderOf(cellType()); }
   /// Of one element.
   [[nodiscard]] mesh::CellType typeOf(const ElementView& element) const {
     return cellOf(cellType(), element.nodes.size());
@@ -66,6 +69,10 @@ public:
 
   /// Precondition: the subdomain is one of this body's.
   [[nodiscard]] SubdomainElements elementsOf(const decomposition::Subdomain& subdomain);
+
+  /// Of each element a number of its region and of the last body force that acts on it, inside of which fluxes
+  /// are smooth; empty where the body has but one.
+  [[nodiscard]] std::vector<GlobalOrdinal> smoothParts(const SubdomainElements& elements) const;
 
   /// Elements of a structured mesh, region by region; null of another, and of bodies with a state.
   [[nodiscard]] const fem::CongruentFluxes* congruentFluxes(GlobalOrdinal region) const {
@@ -120,7 +127,9 @@ private:
       shape_; ///< corners of every element from the origin on, where all are congruent; else empty
   bool hasState_;
   std::vector<fem::CongruentFluxes>
-      congruent_;                         ///< of each region; empty of others, and of bodies with a state
+      congruent_; ///< of each region; empty of others, and of bodies with a state
+  fem::SolidBody solid_;
+  std::vector<fem::SolidDomain> forces_;  ///< where body forces act
   std::unique_ptr<fem::BodyModel> model_; ///< knows regions and states; null where there are none
   fem::RecentlyUsed<fem::LocalNumbering> numberings_;
 };

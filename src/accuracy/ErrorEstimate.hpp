@@ -3,10 +3,8 @@
 /// How far a solution is from the exact one of the scene's differential equations, in the energy norm
 /// ‖v‖_K = (∫ ε(v):C:ε(v))^½ (membranes: (∫ κ|∇v|²)^½). Two parts that add up to the whole, or nearly so:
 ///   discretisation u_h − u: what a finer mesh would mend. Estimated by a recovered flux (RecoveredFlux.hpp):
-///                   η² = Σ ∫ (q* − q_h):C⁻¹:(q* − q_h) over the elements. Not a bound: asymptotically exact
-///                   where the
-///                   solution is smooth, too small by up to a factor 2 at corners and contact borders on
-///                   coarse meshes
+///                   η² = Σ ∫ (q* − q_h):C⁻¹:(q* − q_h) over the elements; of order 2 more in those that do
+///                   not resolve the solution. Not a bound: asymptotically exact where the solution is smooth
 ///   algebraic       u_h − what the iteration has: see fetidp::ContactSolution::algebraicError
 
 #include "epafi/accuracy/RecoveredFlux.hpp"
@@ -22,6 +20,8 @@ struct ErrorEstimate {
   double energyNorm = 0;
   /// η² of each element, in the order of Partition::elementsOf, of each of this rank's subdomains.
   std::vector<std::vector<double>> elements;
+  std::vector<std::vector<double>>
+      seen; ///< the same without what elements do not resolve: a form of second degree
 
   /// η/(‖u_h‖² + η²)^½; 0 without any energy.
   [[nodiscard]] double relative() const;

@@ -111,6 +111,16 @@ std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& dec
   return result;
 }
 
+namespace {
+
+/// By how much more than recovered fluxes see of its error is estimated in an element.
+double factorIn(const ErrorEstimate& estimate, std::size_t subdomain, std::size_t element) {
+  const double seen = estimate.seen[subdomain][element];
+  return seen > 0 ? std::sqrt(estimate.elements[subdomain][element] / seen) : 1;
+}
+
+} // namespace
+
 QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, double norm,
                             std::span<const Eigen::VectorXd> u, std::span<const Eigen::VectorXd> z) {
   QuantityError result;
@@ -124,14 +134,16 @@ QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, double 
     std::vector<Eigen::VectorXd> sum;
     for (std::size_t s = 0; s < u.size(); ++s)
       sum.emplace_back(u[s] + factor * z[s]);
-    return estimator(sum).elements;
+    return estimator(sum).seen;
   };
   const std::vector<std::vector<double>> up = moved(t), down = moved(-t);
+  const ErrorEstimate ofSolution = estimator(u), ofDual = estimator(z);
   AccurateSum sums[2]; // e, |e|
   result.elements = up;
   for (std::size_t s = 0; s < up.size(); ++s)
     for (std::size_t e = 0; e < up[s].size(); ++e) {
-      const double share = (up[s][e] - down[s][e]) / (4 * t);
+      const double share =
+          factorIn(ofSolution, s, e) * factorIn(ofDual, s, e) * (up[s][e] - down[s][e]) / (4 * t);
       sums[0].add(share);
       sums[1].add(std::abs(share));
       result.elements[s][e] = std::abs(share);

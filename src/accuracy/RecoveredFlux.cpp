@@ -1,14 +1,10 @@
 #include "epafi/accuracy/RecoveredFlux.hpp"
 
+#include "epafi/accuracy/PatchFlux.hpp"
+#include "epafi/accuracy/SharedSlots.hpp"
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/Maps.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
-
-#include <Tpetra_Export.hpp>
-#include <Tpetra_Import.hpp>
-#include <Tpetra_Map.hpp>
-#include <Tpetra_MultiVector.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -19,15 +15,17 @@ namespace {
 using decomposition::Subdomain;
 using model::Decomposition;
 
-/// Gives every corner its slot, where there are several materials. Returns the number of slots.
-Eigen::Index findSlots(const Subdomain& subdomain, SubdomainFlux& flux) {
-  if (flux.elements.regions.empty())
+/// Gives every corner its slot, where there are several regions. Returns the number of slots.
+/// \param regions  of each element; empty: one
+Eigen::Index findSlots(const Subdomain& subdomain, std::span<const GlobalOrdinal> regions,
+                       SubdomainFlux& flux) {
+  if (regions.empty())
     return subdomain.nodes.size();
   const std::span<const int> corners = flux.elements.numbering->corners();
   const std::size_t perElement = flux.elements.numbering->nodesPerElement();
   std::vector<std::pair<int, GlobalOrdinal>> pairs(corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k)
-    pairs[k] = {corners[k], flux.elements.regionOf(k / perElement)};
+    pairs[k] = {corners[k], regions[k / perElement]};
   auto distinct = pairs;
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
@@ -82,77 +80,12 @@ void addCongruentElements(const BodyElements& body, const Eigen::VectorXd& displ
   }
 }
 
-/// A slot at a node that other subdomains of the body touch too.
-struct SharedSlot {
-  GlobalOrdinal key; ///< a number of its own in the whole problem
-  std::size_t subdomain;
-  Eigen::Index slot;
-};
-
-/// Collective.
-std::vector<SharedSlot> sharedSlots(const Decomposition& decomposition,
-                                    std::span<const SubdomainFlux> fluxes) {
-  GlobalOrdinal regions = 1; // numbers of regions differ between bodies: keys leave room for the most
-  for (const SubdomainFlux& flux : fluxes)
-    for (const GlobalOrdinal region : flux.regions)
-      regions = std::max(regions, region + 1);
-  regions = maxOverRanks(*decomposition.problem.comm, regions);
-  const std::vector<GlobalOrdinal> firstNode = model::firstNodes(decomposition.bodies);
-  std::vector<SharedSlot> shared;
-  std::vector<int> numElementsAt;
-  for (std::size_t s = 0; s < fluxes.size(); ++s) {
-    const Subdomain& subdomain = decomposition.problem.subdomains[s];
-    const std::size_t body = subdomain.body;
-    const SubdomainFlux& flux = fluxes[s];
-    numElementsAt.resize(subdomain.nodes.size());
-    decomposition.bodies[body].mesh->numNodeElements(subdomain.nodes, numElementsAt);
-    for (std::size_t slot = 0; slot < static_cast<std::size_t>(flux.values.cols()); ++slot) {
-      const std::size_t node = flux.nodeOf(slot);
-      if (numElementsAt[node] > flux.elements.numbering->numElementsAt()[node])
-        shared.push_back({regions * (firstNode[body] + subdomain.nodes[node]) + flux.regionOf(slot), s,
-                          static_cast<Eigen::Index>(slot)});
-    }
-  }
-  return shared;
-}
-
-/// Adds up shared slots over subdomains and ranks. Collective.
-void addShared(const Decomposition& decomposition, std::span<SubdomainFlux> fluxes, std::size_t rows) {
-  const RCP<const Comm>& comm = decomposition.problem.comm;
-  const std::vector<SharedSlot> shared = sharedSlots(decomposition, fluxes);
-  std::vector<GlobalOrdinal> keys;
-  for (const SharedSlot& slot : shared)
-    keys.push_back(slot.key);
-  const RCP<const Map> here = makeMap(std::move(keys), comm);
-  std::vector<LocalOrdinal> places;
-  for (const SharedSlot& slot : shared)
-    places.push_back(here->getLocalElement(slot.key));
-  MultiVector sums(here, rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const auto data = sums.getDataNonConst(row);
-    for (std::size_t k = 0; k < shared.size(); ++k)
-      data[places[k]] += fluxes[shared[k].subdomain].values(row, shared[k].slot);
-  }
-  if (comm->getSize() > 1) {
-    const RCP<const Map> owned = Tpetra::createOneToOne(here);
-    const Export plan(here, owned);
-    MultiVector total(owned, rows);
-    total.doExport(sums, plan, Tpetra::ADD);
-    sums.doImport(total, plan, Tpetra::REPLACE);
-  }
-  for (std::size_t row = 0; row < rows; ++row) {
-    const auto data = sums.getData(row);
-    for (std::size_t k = 0; k < shared.size(); ++k)
-      fluxes[shared[k].subdomain].values(row, shared[k].slot) = data[places[k]];
-  }
-}
-
 } // namespace
 
 SubdomainFlux sumFlux(BodyElements& body, const Subdomain& subdomain, const Eigen::VectorXd& displacement) {
   SubdomainFlux flux;
   flux.elements = body.elementsOf(subdomain);
-  flux.values.setZero(fem::numFluxes(body.physics()) + 1, findSlots(subdomain, flux));
+  flux.values.setZero(fem::numFluxes(body.physics()) + 1, findSlots(subdomain, flux.elements.regions, flux));
   if (body.congruentFluxes(0) != nullptr)
     addCongruentElements(body, displacement, flux);
   else
@@ -163,16 +96,46 @@ SubdomainFlux sumFlux(BodyElements& body, const Subdomain& subdomain, const Eige
 std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies, const Decomposition& decomposition,
                                        std::span<const Eigen::VectorXd> displacement) {
   const auto& problem = decomposition.problem;
-  std::vector<SubdomainFlux> fluxes;
-  collectively(*problem.comm, [&] {
-    for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
-      fluxes.push_back(sumFlux(bodies[problem.subdomains[s].body], problem.subdomains[s], displacement[s]));
-  });
   const int numFluxes = fem::numFluxes(bodies.front().physics()); // all bodies have as many unknowns a node
-  addShared(decomposition, fluxes, numFluxes + 1);
-  for (SubdomainFlux& flux : fluxes)
-    for (Eigen::Index slot = 0; slot < flux.values.cols(); ++slot)
-      flux.values.col(slot) *= 1 / flux.values(numFluxes, slot);
+  std::vector<SubdomainFlux> fluxes;
+  std::vector<FluxPatches> patches;
+  std::size_t most = 0; // values of a patch, of any body
+  for (const BodyElements& body : bodies)
+    most = std::max(most, body.order() == 1 ? 0 : numPatchSums(body, numFluxes));
+  collectively(*problem.comm, [&] {
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+      BodyElements& body = bodies[problem.subdomains[s].body];
+      if (body.order() == 1) {
+        fluxes.push_back(sumFlux(body, problem.subdomains[s], displacement[s]));
+        patches.emplace_back();
+        continue;
+      }
+      SubdomainFlux flux;
+      flux.elements = body.elementsOf(problem.subdomains[s]);
+      const Eigen::Index slots = findSlots(problem.subdomains[s], body.smoothParts(flux.elements), flux);
+      flux.values.setZero(numFluxes + 1, slots);
+      patches.push_back(sumPatches(body, problem.subdomains[s], displacement[s], flux, most));
+      fluxes.push_back(std::move(flux));
+    }
+  });
+  addSharedSlots(decomposition, fluxes, numFluxes + 1, [&](std::size_t s, Eigen::Index slot) {
+    return patches[s].ofSlot.empty() ? fluxes[s].values.col(slot).data() : nullptr;
+  });
+  if (most > 0)
+    addSharedSlots(decomposition, fluxes, most, [&](std::size_t s, Eigen::Index slot) {
+      const int patch = patches[s].ofSlot.empty() ? -1 : patches[s].ofSlot[slot];
+      return patch < 0 ? nullptr : patches[s].sums.col(patch).data();
+    });
+  collectively(*problem.comm, [&] {
+    for (std::size_t s = 0; s < fluxes.size(); ++s) {
+      if (patches[s].ofSlot.empty())
+        for (Eigen::Index slot = 0; slot < fluxes[s].values.cols(); ++slot)
+          fluxes[s].values.col(slot) *= 1 / fluxes[s].values(numFluxes, slot);
+      else
+        fitPatches(bodies[problem.subdomains[s].body], problem.subdomains[s], displacement[s], patches[s],
+                   fluxes[s]);
+    }
+  });
   return fluxes;
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
-/// A flux (κ∇u or stress) that is continuous inside of each material: at a node the mean of the elements
-/// around it that are of the node's material there, weighted by their measures (Zienkiewicz, Zhu 1987); of
-/// order 2 at the nodes on edges and inside likewise. The flux itself jumps between elements; from its
-/// distance to the recovered one follows how much a finer mesh would change it.
+/// A flux (κ∇u or stress) that is continuous inside of each material: of order 1 at a node the mean of the
+/// elements around it that are of the node's material there, weighted by their measures (Zienkiewicz, Zhu
+/// 1987); of order 2 what polynomials on patches of them have (PatchFlux.hpp), where a body force that begins
+/// or ends separates patches as well: derivatives of the flux jump there. The flux itself jumps between
+/// elements; from its distance to the recovered one follows how much a finer mesh would change it.
 
 #include "epafi/accuracy/BodyElements.hpp"
 
@@ -14,11 +15,12 @@
 
 namespace epafi::accuracy {
 
-/// Values at the nodes of one subdomain: a *slot* is a node with one of the materials around it.
+/// Values at the nodes of one subdomain: a *slot* is a node with one of the regions around it, which are
+/// materials, of order 2 those and body forces.
 struct SubdomainFlux {
   SubdomainElements elements;
   Eigen::MatrixXd values; ///< numFluxes × slots, and a last row of ones
-  // Where a subdomain has one material, a slot is a node, and these are empty:
+  // Where a body has one region, a slot is a node, and these are empty:
   std::vector<int> slots;             ///< of each corner of each element
   std::vector<int> nodes;             ///< of each slot: place among the subdomain's nodes
   std::vector<GlobalOrdinal> regions; ///< of each slot
@@ -33,7 +35,7 @@ struct SubdomainFlux {
   [[nodiscard]] GlobalOrdinal regionOf(std::size_t slot) const { return regions.empty() ? 0 : regions[slot]; }
 };
 
-/// Of one subdomain, from its own elements: Σ w q of those around each slot and, in the last row, Σ w, w
+/// Means, of one subdomain and from its own elements, of any order: Σ w q of those around each slot and, in the last row, Σ w, w
 /// their measures. Not collective.
 SubdomainFlux sumFlux(BodyElements& body, const decomposition::Subdomain& subdomain,
                       const Eigen::VectorXd& displacement);

@@ -199,6 +199,44 @@ void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics p
   });
 }
 
+void innerFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
+                 const Material& material, std::span<const double> displacements, InnerFluxes& inner,
+                 const NodalState& state) {
+  withLaw(type, points, physics, material, [&]<int dim>(const mesh::Shape<dim>& shape, const auto& law) {
+    const auto corners = mesh::relativeCorners<dim>(points);
+    const auto& samples = shape.reducedSamples();
+    inner.places.setZero(3, samples.size());
+    inner.fluxes.resize(std::decay_t<decltype(law)>::numFluxes, samples.size());
+    for (Eigen::Index k = 0; k < std::ssize(samples); ++k) {
+      inner.places.col(k).template head<dim>() = corners.lazyProduct(samples[k].values);
+      inner.fluxes.col(k) =
+          fluxAt(law, mesh::ElementMap(corners, samples[k]), samples[k], displacements, state);
+    }
+  });
+}
+
+double quadraticEnergy(mesh::CellType type, std::span<const Point> points, Physics physics,
+                       const Material& material, std::span<const double> displacements,
+                       std::span<const double> stiffnessFactor) {
+  return withLaw(type, points, physics, material,
+                 [&]<int dim>(const mesh::Shape<dim>& shape, const auto& law) {
+                   using Law = std::decay_t<decltype(law)>;
+                   const auto corners = mesh::relativeCorners<dim>(points);
+                   const Eigen::MatrixXd& shares = mesh::cornerShares(type);
+                   Eigen::Matrix<double, Law::components, Eigen::Dynamic> part = atNodes<Law>(displacements);
+                   part -= (part.leftCols(shares.cols()) * shares.transpose()).eval();
+                   const std::span<const double> values(part.data(), static_cast<std::size_t>(part.size()));
+                   const NodalState state{{}, stiffnessFactor};
+                   double energy = 0;
+                   for (const auto& sample : shape.gaussSamples()) {
+                     const mesh::ElementMap map(corners, sample);
+                     energy += sample.weight * law.around(sample) * map.determinant() *
+                               law.density(fluxAt(law, map, sample, values, state)) / factorOf(sample, state);
+                   }
+                   return energy;
+                 });
+}
+
 FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Physics physics,
                           const Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes, const NodalState& state) {
@@ -223,7 +261,14 @@ CongruentFluxes::CongruentFluxes(mesh::CellType type, std::span<const Point> poi
     constexpr int numFluxes = std::decay_t<decltype(law)>::numFluxes;
     const auto corners = mesh::relativeCorners<dim>(points);
     const Eigen::MatrixXd root = rootOfDensity(law);
-    const Eigen::Index numSampled = numSampledFluxes(type);
+    const Eigen::Index numSampled = numSampledFluxes(type), components = unknowns / shape.numNodes;
+    const Eigen::MatrixXd& shares = mesh::cornerShares(type);
+    linear_.setZero(unknowns, unknowns);
+    for (Eigen::Index a = 0; a < shares.rows(); ++a)
+      for (Eigen::Index b = 0; b < shares.cols(); ++b)
+        linear_.block(a * components, b * components, components, components)
+            .diagonal()
+            .setConstant(shares(a, b));
     sampled_ = columnsOf(numFluxes * numSampled, unknowns, [&](std::span<const double> u) {
       Eigen::MatrixXd fluxes(numFluxes, numSampled);
       sampleFlux(law, shape, points, u, fluxes);
@@ -252,6 +297,11 @@ Eigen::VectorXd CongruentFluxes::differences(const Eigen::MatrixXd& displacement
   Eigen::MatrixXd weighted = ofFluxes_ * nodalFluxes;
   weighted.noalias() -= ofDisplacement_ * displacements;
   return weighted.colwise().squaredNorm().transpose();
+}
+
+Eigen::VectorXd CongruentFluxes::quadraticEnergies(const Eigen::MatrixXd& displacements) const {
+  const Eigen::MatrixXd part = displacements - linear_ * displacements;
+  return part.cwiseProduct(stiffness_ * part).colwise().sum().transpose();
 }
 
 DisplacementNorms differenceNorms(mesh::CellType type, std::span<const Point> points, Physics physics,

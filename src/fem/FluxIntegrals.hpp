@@ -37,6 +37,23 @@ void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics p
                    const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes,
                    const NodalState& state = {});
 
+/// Fluxes of an element at the points inside of it where they are most accurate: Shape's reducedSamples.
+struct InnerFluxes {
+  Eigen::Matrix3Xd places; ///< from its first node on
+  Eigen::MatrixXd fluxes;  ///< numFluxes × points
+};
+
+/// \param inner  overwritten, and resized if need be
+void innerFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
+                 const Material& material, std::span<const double> displacements, InnerFluxes& inner,
+                 const NodalState& state = {});
+
+/// Energy norm squared of what order 2 adds to order 1: of u less its interpolant of order 1 between the
+/// element's corners, by the points of the stiffness.
+double quadraticEnergy(mesh::CellType type, std::span<const Point> points, Physics physics,
+                       const Material& material, std::span<const double> displacements,
+                       std::span<const double> stiffnessFactor = {});
+
 /// ∫ q:C⁻¹:q, the energy norm squared of the displacement that has the flux q; for membranes ∫ |q|²/κ.
 struct FluxEnergies {
   double difference = 0; ///< of q* − q_h, q* the shape functions' interpolant of fluxes at the nodes
@@ -65,6 +82,8 @@ public:
   /// Of q* − q_h, of each element. \param nodalFluxes  numFluxes · nodes × elements, node by node
   [[nodiscard]] Eigen::VectorXd differences(const Eigen::MatrixXd& displacements,
                                             const Eigen::MatrixXd& nodalFluxes) const;
+  /// quadraticEnergy of each element.
+  [[nodiscard]] Eigen::VectorXd quadraticEnergies(const Eigen::MatrixXd& displacements) const;
   /// Of q_h, of all elements together.
   [[nodiscard]] double energy(const Eigen::MatrixXd& displacements) const {
     return displacements.cwiseProduct(stiffness_ * displacements).sum();
@@ -73,7 +92,7 @@ public:
 private:
   Eigen::MatrixXd sampled_;                   ///< q_h, sampled, of u
   Eigen::MatrixXd ofFluxes_, ofDisplacement_; ///< W with ‖W_q q* − W_u u‖² = ∫ (q* − q_h):C⁻¹:(q* − q_h)
-  Eigen::MatrixXd stiffness_;
+  Eigen::MatrixXd stiffness_, linear_; ///< \ref linear_ takes u to its interpolant of order 1
 };
 
 /// Energy norm squared and L2 norm squared of a displacement, or of its difference to a given field.

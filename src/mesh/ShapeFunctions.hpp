@@ -131,6 +131,10 @@ extern template const Shape<1>& referenceShape(CellType type);
 extern template const Shape<2>& referenceShape(CellType type);
 extern template const Shape<3>& referenceShape(CellType type);
 
+/// What the corners' functions of order 1 are at the nodes of a plane or solid cell of any order: a row a
+/// node, a column a corner. Made once.
+const Eigen::MatrixXd& cornerShares(CellType type);
+
 /// action(shape) for the shape of a plane or solid cell, a Shape<2> or Shape<3>. Returns what the action
 /// does.
 template <class Action>

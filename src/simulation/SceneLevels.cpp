@@ -84,7 +84,7 @@ public:
 
   [[nodiscard]] int dimension() const override { return dimension_; }
   /// As on the gallery's scenes before meshes measure it.
-  [[nodiscard]] double effectivity(int order) const override { return order == 1 ? 0.9 : 0.75; }
+  [[nodiscard]] double effectivity(int order) const override { return order == 1 ? 0.9 : 1.0; }
   [[nodiscard]] WantedSizes plan(const MeshResult& result, const RefinementGoal& goal) const override {
     RefinementGoal own(goal);
     if (meshes_.areRemeshed()) // what Gmsh does not do as asked is lost in the error's fall then

@@ -180,20 +180,20 @@ TEST(AccuracyPeersTest, TakesContactSolversOnMeshesOfTheLadder) {
 
 TEST(EffectivityTest, OfAModelProblemIsNearOne) {
   const auto comm = Tpetra::getDefaultComm();
-  const std::vector<Row> rows = measureEffectivity("semicoercive", 2, 1, scenes, comm);
+  const std::vector<Row> rows = measureEffectivity("semicoercive", 0, 1, scenes, comm);
   ASSERT_EQ(rows.size(), 2);
   EXPECT_NEAR(rows[0].number("effectivity"), 1, 0.05);
   EXPECT_NEAR(rows[1].number("effectivity"), 1, 0.05);
   EXPECT_NEAR(rows[0].number("discretisation_error") / rows[1].number("discretisation_error"), 2, 0.03);
-  EXPECT_THROW(measureEffectivity("no such scene", 2, 1, scenes, comm), InputError);
+  EXPECT_THROW(measureEffectivity("no such scene", 0, 1, scenes, comm), InputError);
 }
 
-/// Curved elements, whose maps do not settle for points far outside of them.
-TEST(EffectivityTest, OfCurvedMeshesIsNearOne) {
-  const std::vector<Row> rows = measureEffectivity("pressed_ring", 1, 1, scenes, Tpetra::getDefaultComm());
+/// Curved elements, whose maps do not settle for points far outside of them; the contact is one element wide.
+TEST(EffectivityTest, OfCurvedMeshesIsNotFarFromOne) {
+  const std::vector<Row> rows = measureEffectivity("pressed_ring", 5e-3, 1, scenes, Tpetra::getDefaultComm());
   ASSERT_EQ(rows.size(), 1);
-  EXPECT_GT(rows[0].number("effectivity"), 0.6);
-  EXPECT_LT(rows[0].number("effectivity"), 1.5);
+  EXPECT_GT(rows[0].number("effectivity"), 0.9);
+  EXPECT_LT(rows[0].number("effectivity"), 2.2);
 }
 
 /// The error falls with the number of unknowns as where nothing is singular, and no claim fails by more than
