@@ -1,5 +1,7 @@
 #include "Summary.hpp"
 
+#include "NumberText.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,56 +14,6 @@ namespace epafi::drivers {
 namespace {
 
 using simulation::RunResult;
-
-/// "1.2 GB", "3.4 MB".
-std::string bytes(double value) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1);
-  if (value >= 1e9)
-    text << value / 1e9 << " GB";
-  else
-    text << value / 1e6 << " MB";
-  return text.str();
-}
-
-std::string seconds(double value) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(value < 1 ? 3 : 2) << value << " s";
-  return text.str();
-}
-
-std::string scientific(double value, int digits) {
-  std::ostringstream text;
-  text << std::scientific << std::setprecision(digits) << value;
-  return text.str();
-}
-
-std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(5) << value;
-  return text.str();
-}
-
-/// "1.2 %", "0.00034 %".
-std::string percent(double share) {
-  std::ostringstream text;
-  text << std::setprecision(2) << 100 * share << " %";
-  return text.str();
-}
-
-/// "1.2345 ± 0.0012 (0.1 %)".
-std::string valueWithBar(double value, double bar) {
-  std::ostringstream text;
-  text << std::setprecision(8) << value << " ± " << std::setprecision(2) << bar;
-  if (value != 0)
-    text << " (" << percent(bar / std::abs(value)) << ')';
-  return text.str();
-}
-
-/// "1 rank", "2 ranks".
-std::string counted(GlobalOrdinal number, const std::string& noun) {
-  return std::to_string(number) + ' ' + noun + (number == 1 ? "" : "s");
-}
 
 /// Names of the floating bodies; empty if there are none.
 std::string floatingBodies(const RunResult& result) {
