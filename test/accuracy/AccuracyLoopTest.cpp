@@ -127,14 +127,14 @@ TEST(AccuracyLoopTest, ABarIsNoSmallerThanTheLastChangeLetsExpect) {
   ASSERT_EQ(result.meshes.size(), 2U);
   const double error = 1 - result.meshes.back().quantity->value;
   EXPECT_GE(result.meshes.back().quantity->discretisation, error);
-  EXPECT_LE(result.meshes.back().quantity->discretisation, 2 * error);
+  EXPECT_LE(result.meshes.back().quantity->discretisation, 2.5 * error);
 }
 
-/// On its way to 1 a number comes nearer by 0.85 from mesh to mesh, and each bar is a third of the last one.
+/// On its way to 1 a number comes nearer by 0.7 from mesh to mesh, and each bar is a third of the last one.
 TEST(AccuracyLoopTest, ABarIsNoSmallerThanChangesThatGoOneWayLetExpect) {
   for (const int order : {0, 1, 2}) {
-    test::Drift problem(0.85);
-    const LoopResult result = refineToTarget(problem, {.target = 0.2, .order = order});
+    test::Drift problem(0.7);
+    const LoopResult result = refineToTarget(problem, {.target = 0.05, .order = order});
     EXPECT_TRUE(result.isMet) << result.reason;
     const MeshResult::Quantity& found = *result.meshes.back().quantity;
     EXPECT_GT(result.meshes.size(), 3U);
