@@ -59,7 +59,7 @@ enum class Purpose {
 struct RunFacts {
   Purpose purpose = Purpose::solution; ///< what the solve is for
   bool hasStart = false;               ///< λ to start from is there, or comes from a coarser mesh
-  bool isUniform = false; ///< along interfaces the stiffness varies as sizes of elements do, no further
+  bool isUniform = false;   ///< along interfaces the stiffness varies as sizes of elements do, no further
   bool solvesAgain = false; ///< for other data: what saves products may take its time
   /// Unknowns from which on there may be a coarser mesh to begin on.
   GlobalOrdinal coarserFrom = std::numeric_limits<GlobalOrdinal>::max();
