@@ -93,10 +93,10 @@ struct LoopResult {
 /// good the estimates are: with errors e_k = η_k/θ and e_{k−1}² = e_k² + ‖u_k − u_{k−1}‖² (what refinement
 /// adds is orthogonal to what is left, but for what contact changes), θ² = (η_{k−1}² − η_k²) / ‖u_k −
 /// u_{k−1}‖²; estimates are divided by it, those of a quantity by θ², and these are no less than what its
-/// last changes let expect, so that it takes two meshes of one order. A quantity that looks at less and less is given up
-/// if it grows by the same power of that from mesh to mesh: it has no limit. With `order` = 0 the first mesh
-/// is solved on with elements of order 1: if these meet the target there, or are expected to with no more
-/// unknowns than order 2 has on the same mesh, they stay; else order 2 starts from their solution.
+/// last changes let expect, so that it takes two meshes of one order. A quantity that looks at less and less
+/// is given up if it grows by the same power of that from mesh to mesh: it has no limit. With `order` = 0 the
+/// first mesh is solved on with elements of order 1: if these meet the target there, or are expected to with
+/// no more unknowns than order 2 has on the same mesh, they stay; else order 2 starts from their solution.
 /// Collective.
 /// \param tell  is told of every mesh; may be empty
 /// \throws what the problem throws.

@@ -70,8 +70,8 @@ public:
   /// Precondition: the subdomain is one of this body's.
   [[nodiscard]] SubdomainElements elementsOf(const decomposition::Subdomain& subdomain);
 
-  /// Of each element a number of its region and of the last body force that acts on it, inside of which fluxes
-  /// are smooth; empty where the body has but one.
+  /// Of each element a number of its region and of the last body force that acts on it, inside of which
+  /// fluxes are smooth; empty where the body has but one.
   [[nodiscard]] std::vector<GlobalOrdinal> smoothParts(const SubdomainElements& elements) const;
 
   /// Elements of a structured mesh, region by region; null of another, and of bodies with a state.

@@ -35,8 +35,8 @@ struct SubdomainFlux {
   [[nodiscard]] GlobalOrdinal regionOf(std::size_t slot) const { return regions.empty() ? 0 : regions[slot]; }
 };
 
-/// Means, of one subdomain and from its own elements, of any order: Σ w q of those around each slot and, in the last row, Σ w, w
-/// their measures. Not collective.
+/// Means, of one subdomain and from its own elements, of any order: Σ w q of those around each slot and, in
+/// the last row, Σ w, w their measures. Not collective.
 SubdomainFlux sumFlux(BodyElements& body, const decomposition::Subdomain& subdomain,
                       const Eigen::VectorXd& displacement);
 

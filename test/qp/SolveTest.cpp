@@ -87,7 +87,8 @@ TEST(QpAlgorithmTest, RowsMayBeGivenAsAConstraintOfOnesOwn) {
   }
 }
 
-/// min ½|x|² − bᵀx over x_0 ≥ 0, |x_1| ≤ x_0/2 (or another slope) in every pair of entries: for b = (2, 3) x = (2, 1).
+/// min ½|x|² − bᵀx over x_0 ≥ 0, |x_1| ≤ x_0/2, or another slope, in every pair of entries: for b = (2, 3)
+/// x = (2, 1).
 struct Wedges {
   bool knowGrowth = false; ///< whether the set tells how its bounds grow
   double slope = 0.5;
@@ -139,8 +140,8 @@ TEST(SolveTest, ASetThatMovesWithTheSolutionIsFollowed) {
   }
 }
 
-/// Of each pair of A = (1, −0.9; −0.9, 1), |x_1| ≤ 2 x_0 and b = (−1.6, 3) 0, (2, 4) and (5.8, 8.2) are solutions;
-/// on the face of the second one 1 − 0.9 · 2 < 0.
+/// Of each pair of A = (1, −0.9; −0.9, 1), |x_1| ≤ 2 x_0 and b = (−1.6, 3) the solutions are 0, (2, 4) and
+/// (5.8, 8.2); on the face of the second one 1 − 0.9 · 2 < 0.
 TEST(SolveTest, CurvatureBelowZeroOnAFaceWithBoundsThatFollowIsCounted) {
   Wedges wedges;
   wedges.knowGrowth = true;

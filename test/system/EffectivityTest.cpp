@@ -1,5 +1,5 @@
-// The estimate of order 2 beside errors that are known from two more meshes: clamped edges, where stresses are
-// infinite, and the edge of a punch.
+// The estimate of order 2 beside errors that are known from two more meshes: clamped edges, where stresses
+// are infinite, and the edge of a punch.
 
 #include "support/SolidScenes.hpp"
 
