@@ -134,26 +134,27 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   return isComplete ? solved : notConverged;
 }
 
+/// What is written or printed of a model that is not solved.
+int tellOf(const Options& options, const RCP<const Comm>& comm) {
+  if (!options.show.empty())
+    showFaces(options, comm);
+  if (!options.exported.empty() && meshing::isStep(options.scene))
+    exportAssembly(options, comm);
+  else if (!options.exported.empty())
+    exportDeck(options.scene, options.exported, comm);
+  if (!options.list && !options.printPairs)
+    return solved;
+  const std::string text = listOf(options, *comm);
+  return comm->getRank() > 0 || print(text) ? solved : notConverged;
+}
+
 int run(int argc, char** argv, const RCP<const Comm>& comm) {
   const Options options = parseOptions(argc, argv);
-  if ((options.list || options.printPairs) && !options.help) {
-    const std::string text = listOf(options, *comm);
-    return comm->getRank() > 0 || print(text) ? solved : notConverged;
-  }
-  if (!options.show.empty() && !options.help) {
-    showFaces(options, comm);
-    return solved;
-  }
-  if (!options.exported.empty() && !options.help) {
-    if (meshing::isStep(options.scene))
-      exportAssembly(options, comm);
-    else
-      exportDeck(options.scene, options.exported, comm);
-    return solved;
-  }
-  if (!options.help && !options.version && !options.printParameters)
-    return solve(options, comm);
-  return comm->getRank() > 0 || print(information(options)) ? solved : notConverged;
+  if (options.help || options.version || options.printParameters)
+    return comm->getRank() > 0 || print(information(options)) ? solved : notConverged;
+  const bool isSolved =
+      options.show.empty() && options.exported.empty() && !options.list && !options.printPairs;
+  return isSolved ? solve(options, comm) : tellOf(options, comm);
 }
 
 } // namespace

@@ -102,7 +102,7 @@ ErrorEstimate ErrorEstimator::operator()(std::span<const Eigen::VectorXd> displa
   for (std::size_t s = 0; s < fluxes.size(); ++s) {
     const SubdomainFlux& flux = fluxes[s];
     const BodyElements& body = bodies_[problem.subdomains[s].body];
-    std::vector<double> estimates(flux.elements.elements.size()), seen(estimates);
+    std::vector<double> estimates(flux.elements.elements.size()), seen(flux.elements.elements.size());
     sums[1].add(body.congruentFluxes(0) != nullptr
                     ? estimateCongruentElements(body, flux, displacement[s], estimates, seen)
                     : estimateElements(body, problem.subdomains[s], flux, displacement[s], estimates, seen));

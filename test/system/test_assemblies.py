@@ -151,7 +151,8 @@ class Assemblies(unittest.TestCase):
 
     def test_a_picture_shows_the_faces_by_their_numbers(self):
         picture = self.place / "bracket.svg"
-        done = run(step("bracket"), "--show", picture)
+        done = run(step("bracket"), "--show", picture, "--list")
+        self.assertIn("face 1 ", done.stdout)
         self.assertEqual(done.returncode, SOLVED, done.stderr)
         root = xml.etree.ElementTree.parse(picture).getroot()
         space = "{http://www.w3.org/2000/svg}"
