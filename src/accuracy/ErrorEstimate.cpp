@@ -120,6 +120,10 @@ ErrorEstimate ErrorEstimator::operator()(std::span<const Eigen::VectorXd> displa
   return estimate;
 }
 
+bool ErrorEstimator::correctsElements() const {
+  return std::ranges::any_of(bodies_, [](const BodyElements& body) { return body.order() == 2; });
+}
+
 double ErrorEstimator::normOf(std::span<const Eigen::VectorXd> displacement) {
   const auto& problem = decomposition_.problem;
   AccurateSum sums[1];

@@ -42,6 +42,9 @@ public:
   /// number of ranks but for round-off. Collective.
   ErrorEstimate operator()(std::span<const Eigen::VectorXd> displacement);
 
+  /// Whether elements are said to have more error than recovered fluxes see.
+  [[nodiscard]] bool correctsElements() const;
+
   /// ‖v‖_K of a displacement beside which no temperature changes. Collective.
   double normOf(std::span<const Eigen::VectorXd> displacement);
 

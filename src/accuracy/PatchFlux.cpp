@@ -1,6 +1,5 @@
 #include "epafi/accuracy/PatchFlux.hpp"
 
-#include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/mesh/ShapeFunctions.hpp"
@@ -75,13 +74,15 @@ Eigen::MatrixXd fitted(const Monomials& monomials, const Eigen::Ref<const Eigen:
   Eigen::MatrixXd polynomial =
       scale.asDiagonal() * sums.segment(numMoments(n), n * numFluxes).reshaped(n, numFluxes);
   auto factor = direct::choleskyFactor(matrix);
-  if (!factor || factor->diagonal().minCoeff() * factor->diagonal().minCoeff() < least) {
-    for (Eigen::Index k = 0; k < n; ++k)
-      matrix(k, k) += monomials.isBent(k) ? least : 0;
+  const auto soften = [&](bool areBent) {
+    for (Eigen::Index k = 1; k < n; ++k)
+      matrix(k, k) += monomials.isBent(k) == areBent ? least : 0;
     factor = direct::choleskyFactor(matrix);
-  }
-  if (!factor)
-    throw Error("a patch of elements has too few points for a linear flux");
+  };
+  if (!factor || factor->diagonal().cwiseAbs2().minCoeff() < least)
+    soften(true);
+  if (!factor) // flat elements, which do not tell what is linear either
+    soften(false);
   factor->triangularView<Eigen::Lower>().solveInPlace(polynomial);
   factor->triangularView<Eigen::Lower>().transpose().solveInPlace(polynomial);
   return scale.asDiagonal() * polynomial;

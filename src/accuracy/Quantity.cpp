@@ -71,6 +71,12 @@ std::vector<Weight> weightsAtPoint(const model::BodyLayout& body, const Point& p
   return weights;
 }
 
+/// By how much more than recovered fluxes see of its error is estimated in an element.
+double factorIn(const ErrorEstimate& estimate, std::size_t subdomain, std::size_t element) {
+  const double seen = estimate.seen[subdomain][element];
+  return seen > 0 ? std::sqrt(estimate.elements[subdomain][element] / seen) : 1;
+}
+
 /// Collective.
 double largestOf(const Comm& comm, std::span<const Eigen::VectorXd> u) {
   double largest = 0;
@@ -111,19 +117,10 @@ std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& dec
   return result;
 }
 
-namespace {
-
-/// By how much more than recovered fluxes see of its error is estimated in an element.
-double factorIn(const ErrorEstimate& estimate, std::size_t subdomain, std::size_t element) {
-  const double seen = estimate.seen[subdomain][element];
-  return seen > 0 ? std::sqrt(estimate.elements[subdomain][element] / seen) : 1;
-}
-
-} // namespace
-
-QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, double norm,
+QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, const ErrorEstimate& ofSolution,
                             std::span<const Eigen::VectorXd> u, std::span<const Eigen::VectorXd> z) {
   QuantityError result;
+  const double norm = ofSolution.energyNorm;
   result.dualNorm = estimator.normOf(z);
   double t = result.dualNorm > 0 && norm > 0 ? norm / result.dualNorm : 1.0;
   constexpr double most = 1e3; // where z is a rigid motion, without energy but for round-off
@@ -137,13 +134,14 @@ QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, double 
     return estimator(sum).seen;
   };
   const std::vector<std::vector<double>> up = moved(t), down = moved(-t);
-  const ErrorEstimate ofSolution = estimator(u), ofDual = estimator(z);
+  const bool isCorrected = estimator.correctsElements();
+  const ErrorEstimate ofDual = isCorrected ? estimator(z) : ErrorEstimate();
   AccurateSum sums[2]; // e, |e|
   result.elements = up;
   for (std::size_t s = 0; s < up.size(); ++s)
     for (std::size_t e = 0; e < up[s].size(); ++e) {
-      const double share =
-          factorIn(ofSolution, s, e) * factorIn(ofDual, s, e) * (up[s][e] - down[s][e]) / (4 * t);
+      const double more = isCorrected ? factorIn(ofSolution, s, e) * factorIn(ofDual, s, e) : 1,
+                   share = more * (up[s][e] - down[s][e]) / (4 * t);
       sums[0].add(share);
       sums[1].add(std::abs(share));
       result.elements[s][e] = std::abs(share);

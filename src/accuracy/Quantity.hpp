@@ -41,10 +41,12 @@ struct QuantityError {
   std::vector<std::vector<double>> elements; ///< |e_T|, as ErrorEstimate::elements
 };
 
-/// By polarisation: 4t e_T = η_T²(u + tz) − η_T²(u − tz), t = ‖u‖/‖z‖, less where z is next to rigid. Three
-/// passes of the estimator. Collective.
-/// \param norm  ‖u‖_K  \param u, z  at all positions of each of this rank's subdomains, in space
-QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, double norm,
+/// By polarisation: 4t e_T = η_T²(u + tz) − η_T²(u − tz), t = ‖u‖/‖z‖, less where z is next to rigid; η_T is
+/// what recovered fluxes see, and e_T is multiplied by what is estimated beside that of u and of z. Three
+/// passes of the estimator, of order 2 four. Collective.
+/// \param ofSolution  the estimate of u  \param u, z  at all positions of each of this rank's subdomains, in
+/// space
+QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, const ErrorEstimate& ofSolution,
                             std::span<const Eigen::VectorXd> u, std::span<const Eigen::VectorXd> z);
 
 } // namespace epafi::accuracy

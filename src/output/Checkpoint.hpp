@@ -25,7 +25,7 @@ struct Checkpoint {
   std::optional<simulation::StepsDone> steps;
 };
 
-/// The text that a file begins with: begins "Epafi checkpoint 3" and ends with an empty line.
+/// The text that a file begins with: begins "Epafi checkpoint 4" and ends with an empty line.
 /// \param length  of the text of load steps, in bytes
 std::string checkpointHeader(const Fingerprint& fingerprint, std::size_t length = 0);
 

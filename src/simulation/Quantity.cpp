@@ -173,7 +173,8 @@ fetidp::DataChange QuantityOfScene::evaluate(const SolvedScene& solved, Quantity
 }
 
 Quantity QuantityOfScene::operator()(const ContactSolver& solver, const SolvedScene& solved,
-                                     accuracy::ErrorEstimator& estimator, double energyNorm) const {
+                                     accuracy::ErrorEstimator& estimator,
+                                     const accuracy::ErrorEstimate& estimate) const {
   Quantity quantity;
   quantity.name = name_;
   const fetidp::DataChange change = evaluate(solved, quantity);
@@ -193,7 +194,7 @@ Quantity QuantityOfScene::operator()(const ContactSolver& solver, const SolvedSc
   }
   if (!quantity.failure.empty())
     return quantity;
-  accuracy::QuantityError error = accuracy::quantityError(*decomposition_.problem.comm, estimator, energyNorm,
+  accuracy::QuantityError error = accuracy::quantityError(*decomposition_.problem.comm, estimator, estimate,
                                                           solved.solution.displacement, dual.displacement);
   quantity.error = error.error;
   quantity.bar = safety * error.bar + quantity.remainder;

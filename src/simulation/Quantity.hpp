@@ -48,9 +48,10 @@ public:
   QuantityOfScene(const QuantityParameters& parameters, const scene::Scene& scene,
                   const model::Decomposition& decomposition);
 
-  /// A linear solve with contact as the solution has it, and three passes of the estimator. Collective.
+  /// A linear solve with contact as the solution has it, and a few passes of the estimator. Collective.
+  /// \param estimate  of the solution
   Quantity operator()(const ContactSolver& solver, const SolvedScene& solved,
-                      accuracy::ErrorEstimator& estimator, double energyNorm) const;
+                      accuracy::ErrorEstimator& estimator, const accuracy::ErrorEstimate& estimate) const;
 
 private:
   using Kind = QuantityParameters::Kind;

@@ -276,7 +276,7 @@ void solveFrom(const Vector* start, const std::optional<QuantityOfScene>& quanti
   else if (!run.solution.isEstimated)
     run.error = (*estimator)(run.solution.displacement);
   if (quantity)
-    run.result.quantity = (*quantity)(*run.solver, run.solved(), *estimator, run.error->energyNorm);
+    run.result.quantity = (*quantity)(*run.solver, run.solved(), *estimator, *run.error);
   if (estimatesError)
     run.result.times.errorEstimate =
         maxOverRanks(*run.decomposition->problem.comm, Teuchos::Time::wallTime() - began);

@@ -245,6 +245,13 @@ TEST_F(CheckpointTest, WhatIsNoCheckpointIsRefused) {
   expectSays(refusalOf("Epafi checkpoint 4\norder middle\n"), {"another order"});
 }
 
+/// Else fuzzing would begin, and end, at the first line.
+TEST_F(CheckpointTest, FilesOfTheFuzzersCorpusAreOfThisVersion) {
+  const auto corpus = std::filesystem::path(EPAFI_SOURCE_DIR) / "test/fuzz/corpus/checkpoint";
+  for (const char* name : {"none", "steps", "three-multipliers"})
+    EXPECT_NO_THROW(readCheckpoint(corpus / name, *comm)) << name;
+}
+
 TEST_F(CheckpointTest, AFileCutOffAnywhereIsRefused) {
   const std::string whole = expectedContent();
   for (std::size_t length = 0; length < whole.size(); length += stride)

@@ -65,6 +65,24 @@ TEST(RunResultTest, DisplacementsThatAreNotSmallAreADoubtAndAFailureWhereTheyMus
     }
 }
 
+/// A fixed point that was asked for is no fallback.
+TEST(RunResultTest, FrictionWithoutKnownUniquenessIsADoubt) {
+  RunResult result;
+  result.solve.plan.algorithm = fetidp::Algorithm::activeSets;
+  EXPECT_EQ(frictionDoubts(result), "");
+  result.solve.counts.negativeCurvatures = 2;
+  EXPECT_NE(frictionDoubts(result).find("p'Fp < 0"), std::string::npos);
+  result.solve.counts.fixedPointRounds = 7;
+  EXPECT_NE(frictionDoubts(result).find("in 7 rounds"), std::string::npos);
+  result.feedback = FrictionFeedback{0.6, 20};
+  for (const std::string word : {"in 7 rounds", "a factor of 0.6"})
+    EXPECT_NE(frictionDoubts(result).find(word), std::string::npos) << word;
+  result = {};
+  result.solve.plan.algorithm = fetidp::Algorithm::fixedPoint;
+  result.solve.counts.fixedPointRounds = 7;
+  EXPECT_EQ(frictionDoubts(result), "");
+}
+
 TEST(RunResultTest, AMissedTargetIsAStatusOfItsOwn) {
   AccuracyParameters accuracy;
   accuracy.target = 1e-3;
