@@ -54,11 +54,11 @@ bool isConfirmed(const std::vector<MeshResult>& meshes) {
   return !meshes.back().quantity || (meshes.size() > 1 && (meshes.end() - 2)->order == meshes.back().order);
 }
 
-/// Three digits, and from 1000 on a whole number of as many.
+/// Three digits, and from 1000 to 1e12 a whole number of as many.
 std::string rounded(double value) {
-  constexpr double whole = 1000;
+  constexpr double whole = 1000, readable = 1e12;
   std::ostringstream text;
-  if (value >= whole && std::isfinite(value)) {
+  if (value >= whole && value < readable) {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
     text << std::fixed << std::setprecision(0) << unit * std::round(value / unit);
   } else {
