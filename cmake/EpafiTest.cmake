@@ -61,9 +61,9 @@ function(epafi_test name)
   set_source_files_properties(${TEST_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   foreach(ranks IN LISTS TEST_RANKS)
     set(leaks "")
-    if(EPAFI_SANITIZE AND ranks EQUAL 1 AND NOT name MATCHES "qp_random|forms|friction|system|assembly|accuracy|simulation"
+    if(EPAFI_SANITIZE AND ranks EQUAL 1 AND NOT name MATCHES "qp|forms|friction|system|assembly|accuracy|simulation"
        AND NOT "random" IN_LIST TEST_LABELS)
-      set(leaks leaks) # runs once, with leaks looked for; CAD, patches and whole runs allocate too often for that
+      set(leaks leaks) # runs once, with leaks looked for; CAD, patches, random problems and whole runs allocate too often for that
     endif()
     add_test(NAME ${name}_np${ranks}
              COMMAND ${MPIEXEC_EXECUTABLE} ${EPAFI_MPIRUN_FLAGS} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
